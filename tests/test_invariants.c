@@ -485,7 +485,8 @@ static void fail_allocations(const char *text, const dal_invariants_settings *se
     CU_ASSERT(found_last >= least);
 }
 
-/* With nothing found, with y - k x, and with its constraint; with multipliers, and further atoms. */
+/* With nothing found, with y - k x, and with its constraint; with multipliers; with a further
+ * atom. */
 static void test_out_of_memory(void)
 {
     fail_allocations(on_a_line, &(dal_invariants_settings){.degree = 1, .measures = true}, 0);

@@ -22,7 +22,7 @@ static const char parabola[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2
                                "constraints: [\"y' - x*x'\"]\n";
 static const char area[] = "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\n"
                            "constraints: [z' - (x*y' - y*x')/2]\nmechanics: vakonomic\n";
-static const dal_setting aside[] = {{"x", 0.8}, {"y", 0.32}, {"z", 0.3}};
+static const dal_setting targets[] = {{"x", 0.8}, {"y", 0.32}, {"z", 0.3}};
 
 /* A search in T = 1 that has been opened. */
 typedef struct search {
@@ -78,7 +78,7 @@ static void open_search(search *w, const char *text, dal_effort effort, const ch
     *changed(system) = failing_system(system, names);
     failing_begin(0, 0);
     s->settings.rest = !is_vakonomic;
-    s->settings.target = aside;
+    s->settings.target = targets;
     s->settings.targets = s->spec.system->n;
     CU_ASSERT_EQUAL_FATAL(
         dal__problem_open(&w->problem, s->model, &s->spec, 1.0, &s->settings, NULL, &s->record),
@@ -194,8 +194,8 @@ static void test_all_calls(void)
     close_search(&w);
 }
 
-/* The last step of all is so short that it is not damped: where its motion cannot be made that is the
- * status.  Some targets are reached without it. */
+/* The last step is so short that it is not damped: where its motion cannot be made this is the
+ * status.  Some targets may be reached without it. */
 static void test_last_call(void)
 {
     int undamped = 0;
@@ -225,7 +225,7 @@ static void test_derivatives(void)
     w.shooting.point[3 * w.problem.dimension] = NAN;
     CU_ASSERT_EQUAL(differentiate(&w), DAL_STATUS_NOT_FINITE);
     close_search(&w);
-    /* that of the tangent system alone fails */
+    /* callbacks of the tangent system alone fail */
     fails_by_tangent = true;
     open_search(&w, pendulum, DAL_EFFORT_IDENTITY, NULL, 20, 10);
     fails_by_tangent = false;
@@ -287,7 +287,7 @@ static void test_rows(void)
         steered_open(&s, parabola, DAL_EFFORT_IDENTITY, "rk4", 0.1);
         *changed(s.spec.system) = failing_system(s.spec.system, names);
         failing_begin(k > 0 ? total : 0, k > 0 ? LONG_MAX : 0);
-        CU_ASSERT_EQUAL_FATAL(steered_try(&s, 1.0, aside, 2), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL_FATAL(steered_try(&s, 1.0, targets, 2), DAL_STATUS_OK);
         if (k == 0) total = failing_calls();
         CU_ASSERT_EQUAL(s.best->status == DAL_STATUS_OK, k == 0);
         CU_ASSERT(k == 0 ? s.best->max_D < 1.0 : isnan(s.best->max_D));
@@ -447,7 +447,7 @@ static void test_draws(void)
                         i == 3 ? DAL_STATUS_STOPPED : DAL_STATUS_NOT_CONVERGED);
         if (i < 4) CU_ASSERT_EQUAL(c.made, i < 2 ? 0 : i == 2 ? DRAWS : 1);
         if (i == 3) CU_ASSERT_EQUAL(dal_run_time(w.problem.run), 0.0);
-        for (int k = 0; k < 3; k++) CU_ASSERT_EQUAL(w.problem.target[k], aside[k].value);
+        for (int k = 0; k < 3; k++) CU_ASSERT_EQUAL(w.problem.target[k], targets[k].value);
         close_search(&w);
     }
 }
