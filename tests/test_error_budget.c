@@ -469,45 +469,6 @@ static void test_explicit(void)
     dal_error_budget_free(e);
 }
 
-/* A method without room for one more modifier has no comparison with a projection. */
-static void test_full_method(void)
-{
-    dal_run_spec spec = fixture_spec(fixture_system("chaplygin-sleigh"), "stormer-verlet+yoshida4",
-                                     DAL_PHYSICAL, 0.1);
-    dal_integrator again[DAL_LAYERS]; /* as of a caller: it could stay at order 2 */
-    for (int k = 1; k < DAL_LAYERS; k++) {
-        again[k] = *spec.method.layer[1];
-        again[k].order = 2;
-    }
-    for (int k = 1; k < DAL_LAYERS; k++) spec.method.layer[k] = &again[k];
-    dal_error_budget *e = explained(&spec, 4, 0);
-    CU_ASSERT(!e->ran[DAL_COMPARISON_PROJECTION]);
-    CU_ASSERT_STRING_EQUAL(e->reason[DAL_COMPARISON_PROJECTION],
-                           "the method has no room for one more modifier");
-    dal_error_budget_free(e);
-}
-
-/* The start is near the exact solution beside its size up to 1024 steps later, but not beside its
- * size up to 1024 half steps: the run with half the step has no error. */
-static void test_other_observables(void)
-{
-    const double h = 0.125, closeness = 1e-10;
-    const dal_setting start = {"x", 768.0 * h * closeness};
-    dal_run_spec spec = fixture_spec(fixture_system("coordinates: [x]\nlagrangian: x'^2/2\n"
-                                                    "start: {x': 1}\nexact: {x: t}\n"),
-                                     "rk4", DAL_PHYSICAL, h);
-    allocation_trial trial = {0};
-    spec.start = &start;
-    spec.start_count = 1;
-    while (allocation_next(&trial)) { /* which sees what is not freed */
-        dal_error_budget *e = NULL;
-        allocation_start(&trial);
-        if (!allocation_end(&trial, dal_error_budget_create(&e, &spec, 4, 0, NULL, NULL)))
-            CU_ASSERT_STRING_EQUAL(e->reason[DAL_COMPARISON_HALVED], "it has other observables");
-        dal_error_budget_free(e);
-    }
-}
-
 static void test_out_of_memory(void)
 {
     const dal_run_spec spec =
@@ -542,6 +503,4 @@ void suite_error_budget(void)
     CU_add_test(suite, "an explicit method", test_explicit);
     CU_add_test(suite, "observers", test_observer);
     CU_add_test(suite, "out of memory", test_out_of_memory);
-    CU_add_test(suite, "a method without room", test_full_method);
-    CU_add_test(suite, "other observables", test_other_observables);
 }
