@@ -76,10 +76,8 @@ static dal_status check_names(dal_sensitivity *s, const dal_run *run, const dal_
     for (int i = 2 * s->n + 1; has_momenta && i < 4 * s->n + 1; i++)
         s->is_lifted = s->is_lifted || z[i] != 0.0;
     for (int k = 0; k < s->count; k++) {
-        int parameter;
         DAL_REQUIRE(names[k], error);
         const int component = dal_run_component_index(run, names[k]);
-        if (component < 0) DAL_TRY(dal__find_parameter(spec->system, names[k], &parameter, error));
         if (has_momenta && component == 2 * s->n)
             return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                              "sensitivities are at constant e: there is none by the start of e");
