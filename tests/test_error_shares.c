@@ -546,6 +546,8 @@ static void test_sentences(void)
     m.e.shares = &m.a;
     dal_error_budget_summarise(&m.e, 0, words, sizeof words);
     CU_ASSERT_STRING_EQUAL(words, "drifts by rounding of coefficients (100 %)");
+    CU_ASSERT_PTR_EQUAL(
+        dal_error_budget_describe(&m.e, 0, DAL_SOURCE_ROUNDING, words, sizeof words), words);
     /* A buffer of any length ends in NUL. */
     m = make(system, "gauss4");
     shares_of(&m);
