@@ -11,7 +11,7 @@ static dal_error_budget *explained(const dal_run_spec *spec, long long steps, lo
     return e;
 }
 
-/* Whichever report is answered by an interruption, that one ends all. */
+/* Whichever report is interrupted, all ends there. */
 typedef struct watch {
     int calls, max_calls;
 } watch;

@@ -538,8 +538,12 @@ static void test_sentences(void)
     CU_ASSERT(sums_up(&m, "never changes"));
     m.a.whole.deviation = INFINITY;
     CU_ASSERT(sums_up(&m, "is not finite"));
+}
+
+static void test_buffers(void)
+{
+    made_up m = make(fixture_system("chaplygin-sleigh"), "gauss4");
     char words[100];
-    m = make(system, "gauss4");
     shares_of(&m);
     for (int k = 0; k < DAL_ERROR_SOURCES; k++)
         m.a.share[k] = k == DAL_SOURCE_COEFFICIENTS ? 1.0 : 0.0;
@@ -549,9 +553,6 @@ static void test_sentences(void)
     CU_ASSERT_PTR_EQUAL(
         dal_error_budget_describe(&m.e, 0, DAL_SOURCE_ROUNDING, words, sizeof words), words);
     /* A buffer of any length ends in NUL. */
-    m = make(system, "gauss4");
-    shares_of(&m);
-    m.e.shares = &m.a;
     for (size_t size = 1; size <= 16; size++) {
         memset(words, 'x', sizeof words);
         dal_error_budget_summarise(&m.e, 0, words, size);
@@ -592,4 +593,5 @@ void suite_error_shares(void)
     CU_add_test(suite, "descriptions of the motion", test_descriptions_of_motion);
     CU_add_test(suite, "descriptions without quad precision", test_descriptions_without_quad);
     CU_add_test(suite, "in a sentence", test_sentences);
+    CU_add_test(suite, "buffers of words", test_buffers);
 }
