@@ -154,6 +154,50 @@ static void test_bits(void)
     }
 }
 
+/* ---- scales ---- */
+
+typedef struct scale_series {
+    int count;
+    double x[MAX_OBSERVABLES * 64];
+} scale_series;
+
+static dal_status pass_over(void *user, dal_run *run, int samples, const double *t, const double *x,
+                            size_t stride)
+{
+    (void)user, (void)run, (void)samples, (void)t, (void)x, (void)stride;
+    return DAL_STATUS_OK;
+}
+
+static dal_status take_scales(void *user, dal_run *run, const double *scales)
+{
+    scale_series *s = user;
+    const int count = dal_run_observables(run);
+    CU_ASSERT_FATAL(s->count + count <= MAX_OBSERVABLES * 64);
+    for (int i = 0; i < count; i++) s->x[s->count++] = scales[i];
+    return DAL_STATUS_OK;
+}
+
+/* Scales of states that were stored are the scales of the run there. */
+static void test_scales(void)
+{
+    for (size_t i = 0; i < sizeof subjects / sizeof subjects[0]; i++) {
+        static scale_series s[2];
+        for (int compiled = 0; compiled <= 1; compiled++) {
+            const dal_observer observer = {
+                .user = &s[compiled], .values = pass_over, .scales = take_scales, .every = 1};
+            dal_run *run = run_of(&subjects[i], fixture_system(subjects[i].system));
+            s[compiled].count = 0;
+            compile(run, compiled, compiled);
+            CU_ASSERT_EQUAL(dal_run_sample(run, 0.01 * STEPS, 1, 0, &observer, NULL),
+                            DAL_STATUS_OK);
+            dal_run_free(run);
+        }
+        CU_ASSERT(s[0].count > 0);
+        CU_ASSERT_EQUAL_FATAL(s[0].count, s[1].count);
+        CU_ASSERT_EQUAL(memcmp(s[0].x, s[1].x, (size_t)s[0].count * sizeof s[0].x[0]), 0);
+    }
+}
+
 /* H has K of the effort, and mu_e of the state. */
 static void test_effort(void)
 {
@@ -300,6 +344,7 @@ void suite_observables(void)
         CU_add_suite("observables of many steps", compiler_set_up, compiler_tear_down);
     CU_add_test(suite, "the same bits", test_bits);
     CU_add_test(suite, "with an effort and a gauge", test_effort);
+    CU_add_test(suite, "scales of stored states", test_scales);
     CU_add_test(suite, "in pieces", test_pieces);
     CU_add_test(suite, "a step fails", test_failure);
     CU_add_test(suite, "an observer ends it", test_refusal);
