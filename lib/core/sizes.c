@@ -32,7 +32,7 @@ static bool field_at(const dal__sizes *w, double t, const double *x, double *f)
 }
 
 /* W_ii = (E(u) + E(-u) - 2 E(0))/u^2 for a velocity u of one coordinate; 0 where the kinetic energy
- * does not prevail, NaN where E is not finite. */
+ * does not prevail, or E is not finite. */
 static double mass_by_velocity(const dal__sizes *w, int i, double u)
 {
     const dal_system *s = w->system;
@@ -40,11 +40,10 @@ static double mass_by_velocity(const dal__sizes *w, int i, double u)
     for (int k = 0; k < 3; k++) {
         memset(v, 0, (size_t)velocities(s) * sizeof *v);
         v[i] = (k - 1) * u;
-        if (!call(w, s->energy, w->t, w->x, v, &E[k])) return NAN;
+        if (!call(w, s->energy, w->t, w->x, v, &E[k])) return 0.0;
     }
     const double mass = (E[0] - E[1]) + (E[2] - E[1]);
-    if (!isfinite(mass)) return NAN;
-    return fabs(mass) > 0x1p20 * fabs(E[1]) ? fabs(mass / u / u) : 0.0;
+    return isfinite(mass) && fabs(mass) > 0x1p20 * fabs(E[1]) ? fabs(mass / u / u) : 0.0;
 }
 
 /* W_ii by the first velocity that is so large that the kinetic energy prevails; *u is the one of
@@ -59,7 +58,7 @@ static double kinetic_mass(const dal__sizes *w, int i, double *u)
     if (mass > 0.0) return mass;
     for (*u = first; *u < end; *u *= factor) {
         mass = mass_by_velocity(w, i, *u);
-        if (mass != 0.0) return isnan(mass) ? 0.0 : mass;
+        if (mass > 0.0) return mass;
     }
     return 0.0;
 }
