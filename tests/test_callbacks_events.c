@@ -1,5 +1,5 @@
-/* test_callbacks_events.c - callbacks of events that fail, and those of the motion between them
- * (trial.h). */
+/* test_callbacks_events.c - callbacks of events that fail, and callbacks of the motion between
+ * events (trial.h). */
 #include "fixtures.h"
 #include "trial.h"
 #include <CUnit/CUnit.h>
