@@ -11,7 +11,7 @@ dal_status dal__motion_derive(dal_model *model, dal_error *error);
 
 /* The first part of it: mass, the factors of W, a = W^-1 b, and U = W^-1 A^T, R = W^-1 B^T, which
  * remain 0s where they have many more entries than A and W does not depend on v.  Errors:
- * those of dal__factor. */
+ * as of dal__factor. */
 dal_status dal__solve_mass(dal_model *model);
 /* After dal__motion_derive: W^-1 force [n]; where W is restricted to ker A, the x of ker A with
  * W x - A^T h = force for some h. */
@@ -36,11 +36,11 @@ void dal__motion_adjoint(dal_model *model, dal__node *by_q, dal__node *by_v);
 void dal__motion_effort(dal_model *model, dal_effort effort, dal__node *out);
 
 /* x [n] with W x = A^T l for some l and A x = -D: what brings v to D = 0 to first order.  Errors:
- * those of dal__factor. */
+ * as of dal__factor. */
 dal_status dal__motion_correct(dal_model *model, dal__node *x);
 
 /* y [n], l [m] of DAL_EVAL_ENFORCEMENT, where W y = beta b + B^T l and A y = A pi + c; the symbols
- * from e->pi on are pi [n], c [m] and beta.  Errors: those of dal__factor (vakonomic motion
+ * from e->pi on are pi [n], c [m] and beta.  Errors: as of dal__factor (vakonomic motion
  * alone). */
 dal_status dal__motion_enforce(dal_model *model, dal__node *out);
 /* y [n] of DAL_EVAL_REACTION, where W y = beta b + B^T l; the symbols from e->pi on are l [m] and
@@ -48,7 +48,7 @@ dal_status dal__motion_enforce(dal_model *model, dal__node *out);
 void dal__motion_react(dal_model *model, dal__node *y);
 
 /* y [n], l [holonomic] of DAL_EVAL_POSITION, where W y = G^T l and G y = c with the rows G = g_q of
- * A alone; the last of the symbols l of DAL_EVAL_REACTION are c.  Errors: those of
+ * A alone; the last of the symbols l of DAL_EVAL_REACTION are c.  Errors: as of
  * dal__factor. */
 dal_status dal__motion_place(dal_model *model, dal__node *out);
 
