@@ -136,7 +136,7 @@ static dal_status find_growth(dal__fields *d, const dal_setting *parameters, int
     DAL_TRY(dal__fields_allocate(d, dim, parameters, parameter_count, &value, error));
     dal_status status = make_matrix(d, A, value, units, error);
     if (status == DAL_STATUS_OK) status = make_fields(d, A, x);
-    DAL_TRY(dal__model_answer(model, DAL_STATUS_OK, error));
+    DAL_TRY(dal__model_conclude(model, DAL_STATUS_OK, error));
     if (status == DAL_STATUS_SINGULAR)
         return dal__fail(error, status, "the constraints are dependent about the start");
     DAL_TRY(status);
@@ -149,7 +149,7 @@ static dal_status find_growth(dal__fields *d, const dal_setting *parameters, int
         if (dal__fields_rank(d) > last) out->rank[out->levels++] = dal__fields_rank(d);
         out->is_complete = dal__fields_rank(d) == last || dal__fields_rank(d) == d->full;
     }
-    return dal__model_answer(model, DAL_STATUS_OK, error);
+    return dal__model_conclude(model, DAL_STATUS_OK, error);
 }
 
 dal_status dal_model_growth(dal_model *model, const dal_setting *parameters, int parameter_count,

@@ -250,5 +250,5 @@ dal_status dal_dirac_create(dal_dirac **dirac, dal_model *model, const dal_run_s
             dal__check_size(status, error);
     }
     dal__pool_free(&pool);
-    return dal__model_answer(model, status, error);
+    return dal__model_conclude(model, status, error);
 }

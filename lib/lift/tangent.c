@@ -174,7 +174,7 @@ static dal_status find_tangent(dal_model *model, int parameter, const dal_system
         if (status == DAL_STATUS_OK)
             status = dal__check_size(make_tangent(model, parameter, *made), error);
     }
-    DAL_TRY(dal__model_answer(model, status, error));
+    DAL_TRY(dal__model_conclude(model, status, error));
     (*made)->made = true;
     *system = &(*made)->system;
     return DAL_STATUS_OK;

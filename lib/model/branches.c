@@ -348,7 +348,7 @@ dal_status dal_model_branches(dal_model *model, dal_branch *branch, int capacity
         dal__entry_title(model, entry, to->formula, sizeof to->formula);
     }
     free_surface(&f);
-    return dal__model_answer(model, DAL_STATUS_OK, NULL);
+    return dal__model_conclude(model, DAL_STATUS_OK, NULL);
 }
 
 /* ---- motions that meet a jump ---- */
@@ -407,19 +407,6 @@ static double branch_of(const dal_jumps *jumps, dal__node i)
     return s > 0.0 ? 1.0 : s < 0.0 ? -1.0 : NAN;
 }
 
-static void add_switch(dal_jumps *jumps, dal__node node, const dal__entry *entry)
-{
-    if (jumps->count == jumps->capacity) {
-        const int capacity = 2 * jumps->capacity + 8;
-        switching *item = realloc(jumps->item, (size_t)capacity * sizeof *item);
-        jumps->model->out_of_memory |= !item;
-        if (!item) return;
-        jumps->item = item;
-        jumps->capacity = capacity;
-    }
-    jumps->item[jumps->count++] = (switching){node, entry, NAN};
-}
-
 /* Adds the nodes of a formula that switch at a jump. */
 static void add_switches(dal_jumps *jumps, surface *f, const dal__entry *entry, dal__node formula)
 {
@@ -428,8 +415,16 @@ static void add_switches(dal_jumps *jumps, surface *f, const dal__entry *entry, 
     for (dal__node i = 1; mark && i <= formula; i++) {
         int sign;
         f->s = mark[i] ? switch_of(graph, i, &sign) : 0;
-        if (f->s && jumps_in_tangent(f, (dal__op)dal__inspect(graph, i).op))
-            add_switch(jumps, i, entry);
+        if (!f->s || !jumps_in_tangent(f, (dal__op)dal__inspect(graph, i).op)) continue;
+        if (jumps->count == jumps->capacity) {
+            const int capacity = 2 * jumps->capacity + 8;
+            switching *item = realloc(jumps->item, (size_t)capacity * sizeof *item);
+            f->model->out_of_memory |= !item;
+            if (!item) break;
+            jumps->item = item;
+            jumps->capacity = capacity;
+        }
+        jumps->item[jumps->count++] = (switching){i, entry, NAN};
     }
     free(mark);
 }
@@ -451,7 +446,7 @@ dal_status dal_jumps_create(dal_jumps **jumps, dal_model *model)
             add_switches(*jumps, &f, &model->entries[k], formula);
     }
     free_surface(&f);
-    const dal_status status = dal__model_answer(model, DAL_STATUS_OK, NULL);
+    const dal_status status = dal__model_conclude(model, DAL_STATUS_OK, NULL);
     if (status == DAL_STATUS_OK) return DAL_STATUS_OK;
     dal_jumps_free(*jumps);
     *jumps = NULL;

@@ -38,13 +38,6 @@ static void derive_lagrangian(dal__equations *e, dal__node L)
     e->energy = dal__node_sub(graph, twice, L);
 }
 
-static bool is_symmetric(const dal__node *W, int n)
-{
-    for (int i = 0; i < n * n; i++)
-        if (W[i] != W[i % n * n + i / n]) return false;
-    return true;
-}
-
 /* W^T W, and W^T b in place of b. */
 static void make_symmetric(dal_model *model)
 {
@@ -85,7 +78,9 @@ static dal_status derive_equations(dal_model *model, dal_error *error)
         e->b[i] =
             dal__node_sub(e->graph, e->force[i], dal__substitute(e->graph, S[i], second, n, zero));
     }
-    if (is_symmetric(e->W, n)) return DAL_STATUS_OK;
+    bool is_symmetric = true;
+    for (int i = 0; i < n * n; i++) is_symmetric &= e->W[i] == e->W[i % n * n + i / n];
+    if (is_symmetric) return DAL_STATUS_OK;
     if (e->m > 0)
         return dal__fail_at(error, DAL_STATUS_UNSUPPORTED,
                             DAL__AT_TEXT(dal__constraint_entry(model, 0)),

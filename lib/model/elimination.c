@@ -36,10 +36,9 @@ typedef struct plan {
     int *place;          /* [n] of a column in column */
     int *entry;          /* [n*n] the columns of the entries of each row, entries[n] of them */
     int *entries;
-    int *given;              /* [n] of these, those that are not filled in */
-    int *counts;             /* [2n] of the entries that remain in rows, and in columns */
-    double *point, *scratch; /* [symbols], [n*n] */
-    long updates;            /* of entries that vary along a run */
+    int *given;   /* [n] of these, those that are not filled in */
+    int *counts;  /* [2n] of the entries that remain in rows, and in columns */
+    long updates; /* of entries that vary along a run */
 } plan;
 
 /* ---- the order ---- */
@@ -171,31 +170,29 @@ static int order(plan *p, int limit)
     return -1;
 }
 
-static plan allocate_plan(dal_model *model, const dal__factors *f)
-{
-    const size_t n = (size_t)f->n;
-    plan p = {.n = f->n, .saddle = f->saddle, .row = f->row, .column = f->column};
-    p.given = dal__model_allocate(model, n, sizeof *p.given);
-    p.value = dal__model_allocate(model, n * n, sizeof *p.value);
-    p.flag = dal__model_allocate(model, n * n, sizeof *p.flag);
-    p.size = dal__model_allocate(model, n, sizeof *p.size);
-    p.place = dal__model_allocate(model, n, sizeof *p.place);
-    p.entry = dal__model_allocate(model, n * n, sizeof *p.entry);
-    p.entries = dal__model_allocate(model, n, sizeof *p.entries);
-    p.counts = dal__model_allocate(model, 2 * n, sizeof *p.counts);
-    p.point = dal__model_allocate(model, (size_t)model->equations.symbols, sizeof *p.point);
-    p.scratch = dal__model_allocate(model, n * n, sizeof *p.scratch);
-    return p;
-}
-
 /* Chooses the pivots at the start or, where the matrix is singular there, at a point moved off it
  * by irregular amounts between 1/8 and 5/8: what is singular there too is singular everywhere. */
 static dal_status make_plan(dal_model *model, dal__factors *f, plan *p)
 {
     const dal__equations *e = &model->equations;
-    double *const point = p->point;
+    const size_t n = (size_t)f->n;
+    double *point = dal__model_allocate(model, (size_t)e->symbols, sizeof *point);
+    double *scratch = dal__model_allocate(model, n * n, sizeof *scratch);
+    *p = (plan){.n = f->n,
+                .saddle = f->saddle,
+                .given = dal__model_allocate(model, n, sizeof *p->given),
+                .value = dal__model_allocate(model, n * n, sizeof *p->value),
+                .flag = dal__model_allocate(model, n * n, sizeof *p->flag),
+                .size = dal__model_allocate(model, n, sizeof *p->size),
+                .place = dal__model_allocate(model, n, sizeof *p->place),
+                .entry = dal__model_allocate(model, n * n, sizeof *p->entry),
+                .entries = dal__model_allocate(model, n, sizeof *p->entries),
+                .counts = dal__model_allocate(model, 2 * n, sizeof *p->counts),
+                .row = f->row,
+                .column = f->column};
+    if (model->out_of_memory) return DAL_STATUS_OK;
     evaluate(p, e, f->matrix, e->value);
-    f->positive = dal__is_positive_definite(f->n, p->value, DAL__PIVOT_LEAST, p->scratch);
+    f->positive = dal__is_positive_definite(f->n, p->value, DAL__PIVOT_LEAST, scratch);
     f->singular = order(p, e->graph->limit);
     if (p->updates > e->graph->limit) return DAL_STATUS_TOO_LARGE;
     if (f->singular < 0) return DAL_STATUS_OK;
@@ -343,10 +340,11 @@ dal_status dal__factor(dal_model *model, dal__factors *f)
     int *below = dal__model_allocate(model, n, sizeof *below);
     f->row = dal__model_allocate(model, n, sizeof *f->row);
     f->column = dal__model_allocate(model, n, sizeof *f->column);
-    plan p = allocate_plan(model, f);
+    plan p;
     if (model->out_of_memory) return DAL_STATUS_OK;
     for (size_t i = 0; i < n * n; i++) f->given[i] = f->matrix[i];
     DAL_TRY(make_plan(model, f, &p));
+    if (model->out_of_memory) return DAL_STATUS_OK;
     for (int i = 0; i < f->n; i++) {
         symmetric = symmetric && f->row[i] == f->column[i];
         for (int j = 0; j < i && symmetric; j++)

@@ -134,7 +134,7 @@ dal_status dal__check_size(dal_status status, dal_error *error)
     return status == DAL_STATUS_OK ? DAL_STATUS_OK : dal__size_error(status, error);
 }
 
-dal_status dal__model_answer(const dal_model *model, dal_status status, dal_error *error)
+dal_status dal__model_conclude(const dal_model *model, dal_status status, dal_error *error)
 {
     const dal__graph *graph = model->equations.graph;
     if (model->out_of_memory) return dal__memory_error(error);

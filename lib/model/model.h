@@ -116,7 +116,7 @@ dal_status dal__check_size(dal_status status, dal_error *error);
 /* What a function returns to a user: that memory of the model ran out, or that its graph is full,
  * wins over what later steps made of the missing nodes.  Functions between leave both to it: they
  * return early, and no status of their own. */
-dal_status dal__model_answer(const dal_model *model, dal_status status, dal_error *error);
+dal_status dal__model_conclude(const dal_model *model, dal_status status, dal_error *error);
 /* The error that an entry is given twice. */
 dal_status dal__duplicate(const dal__entry *entry, dal_error *error);
 /* Adds a copy of the entry. */

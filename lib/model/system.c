@@ -328,7 +328,7 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     DAL_REQUIRE(model, error);
     if (model->made) return *system = &model->system, DAL_STATUS_OK;
     model->out_of_memory = false;
-    DAL_TRY(dal__model_answer(model, make_system(model, error), error));
+    DAL_TRY(dal__model_conclude(model, make_system(model, error), error));
     model->made = true;
     *system = &model->system;
     return DAL_STATUS_OK;
