@@ -542,7 +542,6 @@ static void test_statuses(void)
     }
     trial_each_callback(gauged, DAL_EFFORT_IDENTITY, "gauss4", DAL_LIFTED, measure_action);
     trial_each_callback(gauged, DAL_EFFORT_IDENTITY, "gauss4", DAL_LIFTED, measure_curve);
-    trial_each_callback(sleigh, DAL_EFFORT_IDENTITY, "gauss4", DAL_LIFTED, check_discrete);
 }
 
 /* A run has no scales where a callback fails that they are made of. */
