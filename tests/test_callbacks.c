@@ -527,6 +527,8 @@ static void test_measures(void)
     trial_each_lifted_call(sleigh, DAL_EFFORT_MASS, "gauss4", DIFFERENCES, measure_action);
     trial_each_lifted_call(sleigh, DAL_EFFORT_MASS, "gauss4", 0.0, measure_curve);
     trial_each_call(sleigh, "gauss4", DAL_LIFTED, 0.0, check_discrete);
+    trial_each_call(swing, "rk4", DAL_PHYSICAL, 0.0, cross);
+    trial_each_call(ball, "rk4", DAL_PHYSICAL, 1e-13, sample); /* between events */
 }
 
 /* A callback that always fails gives its own status. */
@@ -585,20 +587,13 @@ static void test_scales(void)
     no_scales(hanging, false, DAL_PHYSICAL, false);
 }
 
-static void test_places(void)
-{
-    trial_each_call(swing, "rk4", DAL_PHYSICAL, 0.0, cross);
-    trial_each_call(ball, "rk4", DAL_PHYSICAL, 1e-13, sample);
-}
-
 void suite_callbacks(void)
 {
     CU_pSuite suite = CU_add_suite("callbacks that fail", NULL, NULL);
     CU_add_test(suite, "runs and batches", test_runs);
     CU_add_test(suite, "steps", test_steps);
-    CU_add_test(suite, "measures", test_measures);
+    CU_add_test(suite, "measures, crossings and rows", test_measures);
     CU_add_test(suite, "the status of a callback", test_statuses);
     CU_add_test(suite, "scales", test_scales);
-    CU_add_test(suite, "crossings, and rows between events", test_places);
     CU_add_test(suite, "out of memory", test_memory);
 }
