@@ -480,6 +480,22 @@ static void test_memory_of_continuation(void)
     steered_close(&s);
 }
 
+/* Each allocation of a search by a coarse grid. */
+static void test_memory(void)
+{
+    allocation_trial trial = {0};
+    search w;
+    open_search(&w, parabola, DAL_EFFORT_CONSTRAINT, NULL, 48, 12);
+    while (allocation_next(&trial)) {
+        restart(&w);
+        allocation_start(&trial);
+        allocation_end(&trial, by_guess(&w));
+        if (!trial.passed && !trial.is_single) trial.failures += case_stride(9) - 1;
+    }
+    CU_ASSERT(trial.failures > 50);
+    close_search(&w);
+}
+
 /* ---- ends ---- */
 
 /* Which integrals both ends give and which no end does: D = y' - x x' is given by an end whose
@@ -566,6 +582,7 @@ void suite_steer_failures(void)
     CU_add_test(suite, "iterations", test_limits);
     CU_add_test(suite, "draws that fail", test_draws);
     CU_add_test(suite, "no memory for continuation", test_memory_of_continuation);
+    CU_add_test(suite, "no memory for guesses", test_memory);
     CU_add_test(suite, "integrals that ends give", test_ends);
     CU_add_test(suite, "conjugate times", test_conjugate_times);
 }

@@ -164,17 +164,17 @@ static dal_status find_tangent(dal_model *model, int parameter, const dal_system
 {
     const size_t count = 1 + (size_t)model->equations.parameters;
     dal__tangent_system ***list = &model->tangent;
-    model->out_of_memory = false;
+    dal__model_begin(model);
     if (!*list) *list = dal__model_allocate(model, count, sizeof **list);
     dal__tangent_system **made = *list ? *list + 1 + parameter : NULL;
     if (made && !*made) *made = dal__model_allocate(model, 1, sizeof **made);
-    dal_status status = DAL_STATUS_OK;
-    if (!model->out_of_memory && !(*made)->made) {
-        status = check_parameter(model, parameter, error);
+    if (model->out_of_memory) return dal__memory_error(error);
+    if (!(*made)->made) {
+        dal_status status = check_parameter(model, parameter, error);
         if (status == DAL_STATUS_OK)
             status = dal__check_size(make_tangent(model, parameter, *made), error);
+        DAL_TRY(dal__model_conclude(model, status, error));
     }
-    DAL_TRY(dal__model_conclude(model, status, error));
     (*made)->made = true;
     *system = &(*made)->system;
     return DAL_STATUS_OK;
