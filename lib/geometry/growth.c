@@ -129,7 +129,6 @@ static dal_status find_growth(dal__fields *d, const dal_setting *parameters, int
     dal_model *const model = d->model;
     const dal__equations *e = &model->equations;
     const size_t dim = 1 + (size_t)e->n, rows = (size_t)d->rows;
-    dal__model_begin(model);
     dal__node *A = dal__model_nodes(model, (int)(rows * dim) + e->n, dal__number(e->graph, 0.0));
     double *value, *x = dal__model_allocate(model, rows * dim, sizeof *x);
     units = dal__complete_units(model, units);

@@ -137,7 +137,6 @@ dal_status dal_model_ranks(dal_model *model, const dal_setting *parameters, int 
     if (e->vakonomic || e->servo)
         return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "the motion does not follow Chetaev's rule");
-    dal__model_begin(model);
     DAL_TRY(dal__start_values(model, parameters, parameter_count, &value, error));
     units = dal__complete_units(model, units);
     if (!allocate_matrices(model, &k)) return dal__memory_error(error);

@@ -281,8 +281,9 @@ dal_status dal_find_invariants(dal_invariants **found, dal_model *model, const d
     dal_invariants *out = calloc(1, sizeof *out);
     if (!out) return dal__memory_error(error);
     dal__search search = {.model = model, .degree = set.degree};
-    dal__model_begin(model);
-    const dal_status status = search_all(out, &search, spec, &set, error);
+    model->out_of_memory = false;
+    const dal_status status =
+        dal__model_conclude(model, search_all(out, &search, spec, &set, error), error);
     if (status == DAL_STATUS_OK)
         *found = out;
     else

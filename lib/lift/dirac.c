@@ -240,7 +240,7 @@ dal_status dal_dirac_create(dal_dirac **dirac, dal_model *model, const dal_run_s
         return dal__fail(error, DAL_STATUS_ARGUMENT, "the system is not the model's");
     dal__pool pool = {.blocks = NULL};
     dal__theory theory;
-    dal__model_begin(model);
+    model->out_of_memory = false;
     dal_status status = dal__theory_create(&theory, model, spec, &pool, error);
     if (status == DAL_STATUS_OK && !model->out_of_memory) {
         status = dal__dirac_run(dirac, &theory, &pool);

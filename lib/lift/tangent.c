@@ -164,7 +164,7 @@ static dal_status find_tangent(dal_model *model, int parameter, const dal_system
 {
     const size_t count = 1 + (size_t)model->equations.parameters;
     dal__tangent_system ***list = &model->tangent;
-    dal__model_begin(model);
+    model->out_of_memory = false;
     if (!*list) *list = dal__model_allocate(model, count, sizeof **list);
     dal__tangent_system **made = *list ? *list + 1 + parameter : NULL;
     if (made && !*made) *made = dal__model_allocate(model, 1, sizeof **made);

@@ -334,7 +334,7 @@ dal_status dal_model_branches(dal_model *model, dal_branch *branch, int capacity
     DAL_REQUIRE(model && model->made && count && (branch || capacity <= 0), NULL);
     const dal__equations *e = &model->equations;
     surface f;
-    dal__model_begin(model);
+    model->out_of_memory = false;
     place_surface(&f, model);
     *count = 0;
     for (int k = 0; k < model->count && !model->out_of_memory; k++) {
@@ -438,7 +438,6 @@ dal_status dal_jumps_create(dal_jumps **jumps, dal_model *model)
     if (!*jumps) return DAL_STATUS_MEMORY;
     (*jumps)->model = model;
     (*jumps)->x = calloc((size_t)e->symbols, sizeof(double));
-    dal__model_begin(model);
     model->out_of_memory = !(*jumps)->x;
     place_surface(&f, model);
     for (int k = 0; k < model->count && !model->out_of_memory; k++) {

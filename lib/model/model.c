@@ -134,13 +134,6 @@ dal_status dal__check_size(dal_status status, dal_error *error)
     return status == DAL_STATUS_OK ? DAL_STATUS_OK : dal__size_error(status, error);
 }
 
-void dal__model_begin(dal_model *model)
-{
-    dal__graph *graph = model->equations.graph;
-    model->out_of_memory = false;
-    if (graph && graph->status == DAL_STATUS_MEMORY) graph->status = DAL_STATUS_OK;
-}
-
 dal_status dal__model_conclude(const dal_model *model, dal_status status, dal_error *error)
 {
     const dal__graph *graph = model->equations.graph;

@@ -113,8 +113,6 @@ void dal__model_warn(dal_model *model, const dal__entry *entry, const char *text
 dal_status dal__size_error(dal_status status, dal_error *error);
 /* The same unless status is DAL_STATUS_OK. */
 dal_status dal__check_size(dal_status status, dal_error *error);
-/* Begins a public function: where memory ran out before, there may be some again. */
-void dal__model_begin(dal_model *model);
 /* What a function returns to a user: that memory of the model ran out, or that its graph is full,
  * wins over what later steps made of the missing nodes.  Functions between leave both to it: they
  * return early, and no status of their own. */

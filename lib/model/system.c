@@ -327,7 +327,7 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     *system = NULL;
     DAL_REQUIRE(model, error);
     if (model->made) return *system = &model->system, DAL_STATUS_OK;
-    dal__model_begin(model);
+    model->out_of_memory = false;
     DAL_TRY(dal__model_conclude(model, make_system(model, error), error));
     model->made = true;
     *system = &model->system;
