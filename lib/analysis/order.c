@@ -14,6 +14,7 @@
  *
  * (for halved steps their difference; a third of it, and overestimated, where the next term is
  * a h^2).  An order is stated where that is small. */
+#include "analysis/reference.h"
 #include "core/error.h"
 #include "core/settings.h"
 #include "core/vectors.h"

@@ -7,7 +7,6 @@
 #include "analysis/reference.h"
 #include "analysis/scaled.h"
 #include "core/error.h"
-#include "core/settings.h"
 #include "core/vectors.h"
 #include <math.h>
 #include <stdbool.h>
@@ -47,6 +46,13 @@ bool dal__is_on_motion(const dal_run *run)
     const double *state = dal_run_state(run);
     if (dal_run_dimension(run) != 4 * n + 2) return true;
     return dal__max_abs(state + 2 * n + 1, (size_t)(2 * n)) == 0.0;
+}
+
+dal_method dal__library_method(const char *name)
+{
+    dal_method method;
+    (void)dal_method_parse(&method, name, NULL);
+    return method;
 }
 
 dal_status dal__create_reference_run(dal_run **reference, const dal_scaled *scaled,

@@ -28,5 +28,7 @@ dal_run *dal__reference_run(dal__reference *reference);
 
 /* Whether p and pi of a run are 0, so that (q, v) is the motion; without them it is. */
 bool dal__is_on_motion(const dal_run *run);
+/* The method of a name that the library has. */
+dal_method dal__library_method(const char *name);
 
 #endif

@@ -87,10 +87,3 @@ dal_status dal__refuse_events(const dal_system *system, const char *what, dal_er
     return dal__fail(error, DAL_STATUS_UNSUPPORTED, "%.80s has events: %s would pass over them",
                      system->name ? system->name : "the system", what);
 }
-
-dal_method dal__library_method(const char *name)
-{
-    dal_method method;
-    (void)dal_method_parse(&method, name, NULL);
-    return method;
-}

@@ -1,5 +1,4 @@
-/* settings.h - checks of what callers give a run, parameters, start values and a system; methods by
- * name. */
+/* settings.h - checks of what callers give a run: parameters, start values and a system. */
 #ifndef DAL_SETTINGS_H
 #define DAL_SETTINGS_H
 
@@ -42,7 +41,5 @@ dal_status dal__check_spec(const dal_run_spec *spec, dal_error *error);
 /* Refuses a system with events, DAL_STATUS_UNSUPPORTED; what: that which does not know them, in the
  * plural. */
 dal_status dal__refuse_events(const dal_system *system, const char *what, dal_error *error);
-/* The method of a name that the library has. */
-dal_method dal__library_method(const char *name);
 
 #endif

@@ -64,7 +64,8 @@ static dal_status check_request(dal__problem *p, double T, dal_error *error)
     if (!fault) return DAL_STATUS_OK;
     bare.method = (dal_method){.layer = {method.layer[0]}};
     bare.options.tolerance = 0.0;
-    if (dal__tangent_fault(&bare, bare.options.space)) bare.method = dal__library_method("gauss8");
+    if (dal__tangent_fault(&bare, bare.options.space))
+        (void)dal_method_parse(&bare.method, "gauss8", NULL);
     const bool has_other = !dal__tangent_fault(&bare, bare.options.space);
     return dal__fail(error, DAL_STATUS_UNSUPPORTED, "no steering by %s: %s%s%s%s",
                      dal_method_name(&p->spec.method, name, sizeof name), fault,
