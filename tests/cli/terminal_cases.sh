@@ -73,7 +73,7 @@ END
         echo "  - $system"
     done
 } >wide.yaml
-if needs 34 "no terminal (script, stty)" terminal; then
+if needs 37 "no terminal (script, stty)" terminal; then
     case_is "study: names, ok or a size, and what to take"
     shown 80 study small.yaml --output there --force --no-page
     fits 80 23
@@ -105,6 +105,12 @@ if needs 34 "no terminal (script, stty)" terminal; then
         expect "$(cat "$label")" grep -Eqx ' +abcdefg +knife' "$label"
     done
     expect "$(cat abcdefghij äöüßäöüßäö)" cmp abcdefghij äöüßäöüßäö
+    case_is "study: a short piece of a label is its name before a cut one"
+    sed "s/^systems: .*/systems: [{system: chaplygin-sleigh, label: accelerated-sleigh}, {system: plane.yaml, label: horizontal-plane}]/" \
+        small.yaml >pieces.yaml
+    shown 80 study pieces.yaml --output there --force --no-page
+    fits 80 23
+    expect "other heads: $(sed -n 3p plain)" grep -Eqx ' +sleigh +plane' plain
     case_is "study: systems that do not fit are counted"
     shown 80 study wide.yaml --output there --force --no-page
     fits 80 23
