@@ -24,6 +24,25 @@ static dal_status pass_events(trial *t)
     return status;
 }
 
+static dal_status keep_row(void *user, dal_run *run, long long row, double t)
+{
+    (void)row;
+    trial_add_number(user, t);
+    trial_add_run(user, run);
+    return DAL_STATUS_OK;
+}
+
+/* Rows within a step that cannot be searched, one of them beyond an event. */
+static dal_status sample_past_events(trial *t)
+{
+    dal_run *run = NULL;
+    dal_status status = dal_run_create(&run, &t->spec, &t->error);
+    const dal_observer observer = {.user = t, .sample = keep_row};
+    if (status == DAL_STATUS_OK) status = dal_run_sample(run, 0.4, 20, 1, &observer, &t->error);
+    dal_run_free(run);
+    return status;
+}
+
 /* Without rows, between which an event may be. */
 static dal_status advance_past_events(trial *t)
 {
@@ -76,6 +95,7 @@ static void test_searches(void)
             trial_each_call_of(names[k], passing[i], "rk4", TRIAL_FAILS, advance_past_events);
     for (int k = 0; k < 5; k++) {
         trial_each_call_of(names[k], drop, "rk4", 1e-13, advance_past_events);
+        if (k < 3) trial_each_call_of(names[k], drop, "rk4", 1e-13, sample_past_events);
         if (k == 4) continue;
         trial_each_call_of(names[k], turning, "rk4", 1e-13, advance_past_events);
         trial_each_call_of(names[k], low, "rk4", 1e-13, advance_past_events);

@@ -413,17 +413,23 @@ dal_status dal__crossing_next(dal__zero_search *c, double *distance)
     return DAL_STATUS_OK;
 }
 
-void dal__crossing_keep(dal__zero_search *c, double distance)
+void dal__crossing_keep(dal__zero_search *c, double length, double distance)
 {
     c->is_kept = true;
+    c->length = length;
     c->distance = distance;
 }
 
-bool dal__crossing_is_kept(const dal__zero_search *c, double *distance)
+bool dal__crossing_is_kept(const dal__zero_search *c)
 {
     const dal_run *run = c->run;
-    *distance = c->distance;
     return c->is_kept && memcmp(c->before, run->storage, run->stored * sizeof *c->before) == 0;
+}
+
+bool dal__crossing_has_kept(const dal__zero_search *c, double length, double *distance)
+{
+    *distance = c->distance;
+    return dal__crossing_is_kept(c) && c->length == length;
 }
 
 void dal__crossing_take(dal__zero_search *c)

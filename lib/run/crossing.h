@@ -71,8 +71,8 @@ typedef struct dal__zero_search {
     bool has_roundings;
     bool is_begun;    /* begin is already evaluated */
     bool is_searched; /* the interval has been searched, but not been left */
-    bool is_kept;     /* `distance` is the result of the search from `before` */
-    double distance;
+    bool is_kept;     /* `distance` is the result of the search of `length` from `before` */
+    double length, distance;
     int k;                   /* the function whose root is sought, */
     bool by_rate;            /* or the root of its rate */
     long long touches;       /* extrema that are 0 up to rounding */
@@ -93,9 +93,11 @@ dal_status dal__crossing_begin(dal__zero_search *c, double h, dal_error *error);
 /* The distance of the next zero that counts, the first of all functions; infinite: none in the rest
  * of the step.  zero[].s has the zeros of the same interval. */
 dal_status dal__crossing_next(dal__zero_search *c, double *distance);
-/* Keeps a distance as the result of the search until the run changes; and whether one is kept. */
-void dal__crossing_keep(dal__zero_search *c, double distance);
-bool dal__crossing_is_kept(const dal__zero_search *c, double *distance);
+/* Keeps a distance as the result of the search of a step of a length until the run changes; whether
+ * a search is kept, and whether one of that length. */
+void dal__crossing_keep(dal__zero_search *c, double length, double distance);
+bool dal__crossing_is_kept(const dal__zero_search *c);
+bool dal__crossing_has_kept(const dal__zero_search *c, double length, double *distance);
 /* Takes the step, which has been searched to its end. */
 void dal__crossing_take(dal__zero_search *c);
 

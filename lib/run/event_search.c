@@ -502,11 +502,10 @@ static dal_status search_held(const dal__event_search *w, double h, double *dist
     return DAL_STATUS_OK;
 }
 
-/* The same of the next step.  Where it fails, as beyond a wall, a shorter one may have an event. */
-static dal_status search_next(const dal__event_search *w, search_function *search, double *distance,
-                              dal_error *reason)
+/* The same.  Where the step fails, as beyond a wall, a shorter one may have an event. */
+static dal_status search_next(const dal__event_search *w, search_function *search, double h,
+                              double *distance, dal_error *reason)
 {
-    const double h = w->run->layout.options.step;
     const dal_status status = search(w, h, distance, reason);
     double low = 0.0, high = h;
     bool found = status == DAL_STATUS_OK;
@@ -520,8 +519,8 @@ static dal_status search_next(const dal__event_search *w, search_function *searc
     return found ? DAL_STATUS_OK : status;
 }
 
-/* Searches the next step with the branches held, and whether the result counts. */
-static bool repeat_held(const dal__event_search *w, double *distance)
+/* Searches a step of size h with the branches held, and whether the result counts. */
+static bool repeat_held(const dal__event_search *w, double h, double *distance)
 {
     dal_error ignored = {0};
     bool slides = false;
@@ -529,12 +528,12 @@ static bool repeat_held(const dal__event_search *w, double *distance)
     for (int j = 0; j < w->system->branches->count && status == DAL_STATUS_OK; j++)
         slides = slides || w->held.branch[j].is_sliding;
     if (status == DAL_STATUS_OK && !slides)
-        status = search_next(w, search_held, distance, &ignored);
+        status = search_next(w, search_held, h, distance, &ignored);
     dal__run_hold(w->run, NULL);
     return status == DAL_STATUS_OK && !slides && !isnan(*distance);
 }
 
-dal_status dal__search_events(dal__event_search *w, double *distance)
+dal_status dal__search_events(dal__event_search *w, double h, double *distance)
 {
     dal__zero_search *const free = w->free, *const held = w->held.crossing;
     const long long unresolved = free->unresolved;
@@ -542,11 +541,11 @@ dal_status dal__search_events(dal__event_search *w, double *distance)
     dal_error reason = {0};
     double repeated;
     w->crossing = free;
-    if (dal__crossing_is_kept(free, distance)) return DAL_STATUS_OK;
-    if (held && dal__crossing_is_kept(held, distance)) return w->crossing = held, DAL_STATUS_OK;
-    const dal_status status = search_next(w, search_free, distance, &reason);
+    if (dal__crossing_has_kept(free, h, distance)) return DAL_STATUS_OK;
+    if (held && dal__crossing_has_kept(held, h, distance)) return w->crossing = held, DAL_STATUS_OK;
+    const dal_status status = search_next(w, search_free, h, distance, &reason);
     w->has_failed = status != DAL_STATUS_OK;
-    if (held && (w->has_failed || is_near(w)) && repeat_held(w, &repeated)) {
+    if (held && (w->has_failed || is_near(w)) && repeat_held(w, h, &repeated)) {
         w->crossing = held;
         *distance = repeated;
         free->unresolved = unresolved + held->is_unresolved;
@@ -556,7 +555,7 @@ dal_status dal__search_events(dal__event_search *w, double *distance)
         if (w->error) *w->error = reason;
         return status;
     }
-    dal__crossing_keep(w->crossing, *distance);
+    dal__crossing_keep(w->crossing, h, *distance);
     return DAL_STATUS_OK;
 }
 
@@ -574,10 +573,9 @@ void dal__let_go_as_searched(const dal__event_search *w)
 
 void dal__hold_as_kept(dal_run *run)
 {
-    double distance;
     if (!run->layout.system->branches || !run->has_search) return;
     const dal__event_search w = dal__event_search_begin(run, NULL);
-    if (dal__crossing_is_kept(w.held.crossing, &distance)) dal__run_hold(run, w.held.point);
+    if (dal__crossing_is_kept(w.held.crossing)) dal__run_hold(run, w.held.point);
 }
 
 bool dal__event_slides(const dal__event_search *w, int k)

@@ -56,10 +56,9 @@ dal__event_places dal__event_places_of(const dal_run *run);
 const dal__zero_search *dal__event_crossing(const dal_run *run);
 dal__event_search dal__event_search_begin(dal_run *run, dal_error *error);
 
-/* Finds the first event within the next step: its distance, infinite where there is none.  The run
- * stays as it is, and the result is kept until the run changes.  Errors: as for a step,
- * DAL_STATUS_NOT_FINITE. */
-dal_status dal__search_events(dal__event_search *w, double *distance);
+/* Finds the first event within the next step, or a shorter one of size h: its distance, infinite
+ * where there is none.  The run stays as it is, and the result is kept until the run changes.  Errors: as for a step, DAL_STATUS_NOT_FINITE. */
+dal_status dal__search_events(dal__event_search *w, double h, double *distance);
 
 /* Holds the branches as the search did that was kept for the present state, if any were held; and
  * the same where the caller has that search, until they are let go. */

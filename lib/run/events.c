@@ -270,7 +270,7 @@ dal_status dal__advance_events(dal_run *run, long long count, const dal__event_l
     double distance;
     DAL_TRY(dal__check_events(run, error));
     for (long long i = 0; i < count; i++) {
-        DAL_TRY(dal__search_events(&w, &distance));
+        DAL_TRY(dal__search_events(&w, run->layout.options.step, &distance));
         if (isfinite(distance)) {
             DAL_TRY(take_events(&w, distance, listener));
             DAL_TRY(dal__check_events(run, error));
@@ -297,11 +297,13 @@ dal_status dal_run_advance(dal_run *run, long long count, dal_error *error)
 
 dal_status dal_run_step(dal_run *run, dal_error *error) { return dal_run_advance(run, 1, error); }
 
-double dal__next_event(dal_run *run)
+dal_status dal__next_event(dal_run *run, double h, double *distance, dal_error *error)
 {
-    double distance = INFINITY;
     dal__event_search w = dal__event_search_begin(run, NULL);
-    return dal__search_events(&w, &distance) == DAL_STATUS_OK ? distance : INFINITY;
+    if (dal__search_events(&w, run->layout.options.step, distance) == DAL_STATUS_OK)
+        return DAL_STATUS_OK;
+    w.error = error;
+    return dal__search_events(&w, h, distance);
 }
 
 /* ---- a parameter between steps ---- */

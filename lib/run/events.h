@@ -28,9 +28,10 @@ typedef struct dal__event_listener {
  * DAL_STATUS_UNSUPPORTED where p, pi or pi_e is not 0. */
 dal_status dal__advance_events(dal_run *run, long long count, const dal__event_listener *listener,
                                dal_error *error);
-/* The distance of the first event within the next step; infinite where there is none, or the step
- * fails.  The run stays as it is. */
-double dal__next_event(dal_run *run);
+/* The distance of the first event within the next step, or, where none can be searched that long,
+ * within one of size h; infinite where there is none.  The run stays as it is.  Errors: as for a
+ * step. */
+dal_status dal__next_event(dal_run *run, double h, double *distance, dal_error *error);
 /* DAL_STATUS_STOPPED with its message where an event has ended the run; DAL_STATUS_UNSUPPORTED on
  * the lifted space off p = pi = 0: an event acts on (q, v) alone, p and pi would need its
  * derivatives. */
