@@ -16,8 +16,6 @@
 
 static dal_status add_atom(dal__search *s, const char *text, dal__node node)
 {
-    const dal__equations *e = &s->model->equations;
-    if (e->graph->status != DAL_STATUS_OK) return e->graph->status;
     if (!text) return DAL_STATUS_MEMORY;
     for (int i = 0; i < s->atoms; i++)
         if (s->atom[i].node == node) return DAL_STATUS_OK;
@@ -30,7 +28,7 @@ static dal_status add_atom(dal__search *s, const char *text, dal__node node)
         s->capacity = capacity;
     }
     s->atom[s->atoms++] = (dal__atom){text, node};
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }
 
 /* The name of a symbol in formulas; NULL: it has none. */

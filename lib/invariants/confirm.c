@@ -74,9 +74,7 @@ static dal_status make_points(const dal__search *s, const dal__condition *condit
             node[k * outputs] = candidate[k].node;
             rate_terms(s, condition, candidate[k].node, symbol, moving, node + k * outputs + 1);
         }
-        status = e->graph->status;
-        if (status == DAL_STATUS_OK)
-            status = dal__points_create(points, e, &s->region, node, count * outputs);
+        status = dal__points_create(points, e, &s->region, node, count * outputs);
     }
     free(symbol);
     free(node);
@@ -203,7 +201,7 @@ static dal_status list_gradients(const dal__search *s, const dal__candidate *can
                                                        : candidate[i - g->known].node;
         dal__gradient(e->graph, f, g->symbol, g->moving, *out + k * width);
     }
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__find_independent(const dal__search *s, dal__candidate *candidate, int count)
@@ -289,5 +287,5 @@ dal_status dal__find_constraint(const dal__search *s, dal__node f, int *constrai
     }
     free(gradient);
     free(memory);
-    return has_memory ? e->graph->status : DAL_STATUS_MEMORY;
+    return has_memory ? DAL_STATUS_OK : DAL_STATUS_MEMORY;
 }

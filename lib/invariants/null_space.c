@@ -62,9 +62,8 @@ dal_status dal__search_sample(const dal__search *s, const dal__condition *condit
     if (status == DAL_STATUS_OK) {
         node[outputs - 1] =
             condition->power != 0.0 ? dal__search_divergence(e) : dal__number(e->graph, 0.0);
-        status = e->graph->status;
+        status = dal__points_create(&at, e, &s->region, node, outputs);
     }
-    if (status == DAL_STATUS_OK) status = dal__points_create(&at, e, &s->region, node, outputs);
     if (status == DAL_STATUS_OK) dal__points_begin(at, parameter);
     for (int i = 0; i < points && status == DAL_STATUS_OK; i++) {
         status = dal__points_next(at, out);
