@@ -474,7 +474,8 @@ static void latex_texts(void)
     static const char *const wanted[] = {
         "L &= \\tfrac{1}{2}\\,m_{\\mathrm{ball}}\\,\\left(\\dot{\\varphi}^{2} + "
         "\\dot{x}_{12}^{2}\\right)",
-        "Q_{\\varphi} &= ", "D_{1} &= \\dot{\\varphi}\\,\\sin^{2}(x_{12}) - \\dot{x}_{12} = 0",
+        "Q_{\\varphi} &= 1 \\cdot 10^{-7}\\,\\dot{\\varphi}",
+        "D_{1} &= \\dot{\\varphi}\\,\\sin^{2}(x_{12}) - \\dot{x}_{12} = 0",
         "\\ddot{\\varphi} = F_{\\varphi} &= ",
         "H &= \\frac{\\pi_{\\varphi}^{2} + \\pi_{x_{12}}^{2}}{2\\,e} + "
         "\\pi_{\\varphi}\\,F_{\\varphi}"

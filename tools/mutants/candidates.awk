@@ -115,7 +115,7 @@ function is_symmetric(at, after,    name) {
     name = substr(code, at)
     sub(/[(].*/, "", name)
     if (name == "strcmp") return after ~ /^ [!=]= 0/ || substr(code, at - 1, 1) == "!"
-    return name ~ /^(cli_)?calloc$|^f(min|max)$|^hypot$|^file_is_same$/
+    return name ~ /^(cli_)?calloc$|^f(min|max)$|^hypot$|^file_is_same$|^dal__numbers$/
 }
 
 # f(a, b): f(b, a), where neither has parentheses.
