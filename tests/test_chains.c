@@ -356,6 +356,31 @@ static void test_operations(void)
     CU_ASSERT(at_32 - at_16 <= 2 * (at_16 - at_8));
 }
 
+/* A star: a coordinate whose velocity is coupled to all others', before them. */
+static int operations_of_star(int n)
+{
+    char text[256];
+    const dal_system *system;
+    dal_model *model = NULL;
+    snprintf(text, sizeof text,
+             "coordinates: ['x[0..%d]']\nlagrangian: sum(i, 0, %d, (2 + cos(x[i]))*x[i]'^2)/2 + "
+             "sum(i, 1, %d, sin(x[i])*x[0]'*x[i]')/100\n",
+             n - 1, n - 1, n - 1);
+    CU_ASSERT_EQUAL_FATAL(dal_model_read(&model, "star", text, strlen(text), NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_STATUS_OK);
+    const int count = system->field_operations;
+    dal_model_free(model);
+    return count;
+}
+
+/* Eliminated first, it would couple each two of the others. */
+static void test_star(void)
+{
+    const int at_24 = operations_of_star(24), at_48 = operations_of_star(48),
+              at_96 = operations_of_star(96);
+    CU_ASSERT(at_96 - at_48 <= 2.1 * (at_48 - at_24));
+}
+
 /* Numbers of a workspace, and the bound of what the rank check compares, grow with n: also where
  * the pivots of a Jacobian of 2 n^2 numbers are checked, or the pivots of n m directions. */
 static void check_workspace(const chain *whole)
@@ -474,6 +499,7 @@ void suite_chains(void)
     CU_add_test(suite, "steps that enforce D end on D = 0", test_steps);
     CU_add_test(suite, "expressions in proportion to n", test_nodes);
     CU_add_test(suite, "operations in proportion to n", test_operations);
+    CU_add_test(suite, "operations of a star", test_star);
     CU_add_test(suite, "workspaces in proportion to n", test_workspace);
     CU_add_test(suite, "memory of Newton's method where it may be used", test_size);
     CU_add_test(suite, "memory in proportion to n", test_growth);
