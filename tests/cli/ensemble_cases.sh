@@ -341,6 +341,9 @@ printf x >wrong/manifest.json
 wrong "'wrong' is not empty and holds no results of dalembert" $one --vary "k=normal(0,1)"
 printf '{\n  "dalembert": "0.5.0"\n}\n' >wrong/manifest.json
 wrong "'wrong' holds something else" $one --vary "k=normal(0,1)"
+rm wrong/manifest.json
+mkdir wrong/manifest.json
+wrong "^dalembert: 'wrong/manifest.json' is a directory$" $one --vary "k=normal(0,1)"
 
 case_is "numbers of a manifest that no ensemble has"
 for number in members:0 members:-1 members:1e99 seed:-3; do
