@@ -152,6 +152,7 @@ static const double point[SYMBOLS] = {1.3, -0.7, 0.3, 2.5, -1.25, 0.75, 4.0, -3.
 static const char *const collected[][2] = {
     {"sin(x)*(a*sin(x) + b*cos(x)) + cos(x)*(a*cos(x) - b*sin(x))", "a"},
     {"(x*sin(y) + z*cos(y))^2 + (x*cos(y) - z*sin(y))^2", "x*x + z*z"},
+    {"(x*sin(y) + z*cos(y))*x*sin(y) + x^2*cos(y)^2", "x*(x + z*sin(y)*cos(y))"},
     {"x*(y + z) - y*x", "x*z"},
     {"a*x*(y - z) + z*a*x - a*x*y", "0"},
     {"x'*y'*z + x'*y'*x + x'*x*z", "x'*(y'*(x + z) + x*z)"},
