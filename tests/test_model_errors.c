@@ -223,6 +223,10 @@ static const bad_file formulas[] = {
     {DAL_STATUS_SYNTAX, "lagrangian: division by zero", XY "lagrangian: x'@/0\n"},
     {DAL_STATUS_SYNTAX, "lagrangian: the formula is empty", XY "lagrangian: '@'\n"},
     {DAL_STATUS_SYNTAX, "lagrangian: the formula is empty", XY "lagrangian:@\n"},
+    {DAL_STATUS_SYNTAX, "lagrangian: x'' is a second derivative; a formula knows only x and x'",
+     XY "lagrangian: \"x'^2 + x'@'\"\n"},
+    {DAL_STATUS_SYNTAX, "constraint 1: y'' is a second derivative; a formula knows only y and y'",
+     XY L "constraints: [\"y'@'\"]\n"},
     /* Places in every kind of YAML text. */
     {DAL_STATUS_NAME, "lagrangian: unknown name 'z'", XY "lagrangian: \"x'^2 + @z\"\n"},
     {DAL_STATUS_NAME, "lagrangian: unknown name 'z'", XY "lagrangian: 'x''^2 + y''^2 + @z'\n"},

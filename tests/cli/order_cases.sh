@@ -116,6 +116,11 @@ try 0 order falling-disk --integrators dop853,rk4 --time 10 --tolerances 1e-6,1e
 prints '"reference": \{"integrator": "taylor", "step": 5, "tolerance": 1\.?0*1?e-11, "error": '
 prints '"step": 5, "tolerance": 1e-09, "steps": 2, '
 prints 'rk4 has no control of its step size'
+# A table has no Taylor series.
+printf '%s\n' t,f 0,0 1,2 >push.csv
+printf '%s\n' 'coordinates: [x]' 'tables: {f: {file: push.csv, at: t, value: f}}' 'accelerations: {x: f(t)}' >push.yaml
+try 0 order push.yaml --integrators dop853 --time 1 --tolerances 1e-4,1e-6 --json
+prints '"reference": \{"integrator": "dop853", "step": 1, "tolerance": 1e-08, '
 # An oscillator for 5,000 periods: more substeps than a step may have.
 printf 'coordinates: [x]\nlagrangian: (x'"'"'^2 - x^2)/2\nstart: {x: 1}\nexact: {x: cos(t)}\n' >oscillator.yaml
 try 0 order oscillator.yaml --integrators dop853 --time 31415 --tolerances 1e-8,1e-12 --output periods.csv
