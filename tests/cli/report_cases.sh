@@ -506,6 +506,10 @@ mkdir cut/section.json
 try 4 report cut
 says "cannot read 'cut/section.json': Is a directory"
 rmdir cut/section.json
+echo '{"version": "0.5.0"}' >cut/section.json
+try 2 report cut
+says "^dalembert: cut/section.json:1:1: there is no request$"
+rm cut/section.json
 try 0 report cut
 expect "no figure of a table alone" grep -q '<figure' cut/report/index.html
 
