@@ -57,7 +57,8 @@ const dal__zero_search *dal__event_crossing(const dal_run *run);
 dal__event_search dal__event_search_begin(dal_run *run, dal_error *error);
 
 /* Finds the first event within the next step, or a shorter one of size h: its distance, infinite
- * where there is none.  The run stays as it is, and the result is kept until the run changes.  Errors: as for a step, DAL_STATUS_NOT_FINITE. */
+ * where there is none.  The run stays as it is, and the result is kept until it changes.  Errors:
+ * as for a step, DAL_STATUS_NOT_FINITE. */
 dal_status dal__search_events(dal__event_search *w, double h, double *distance);
 
 /* Holds the branches as the search did that was kept for the present state, if any were held; and

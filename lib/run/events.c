@@ -299,6 +299,8 @@ dal_status dal_run_step(dal_run *run, dal_error *error) { return dal_run_advance
 
 dal_status dal__next_event(dal_run *run, double h, double *distance, dal_error *error)
 {
+    *distance = INFINITY;
+    if (run->layout.system->events == 0) return DAL_STATUS_OK;
     dal__event_search w = dal__event_search_begin(run, NULL);
     if (dal__search_events(&w, run->layout.options.step, distance) == DAL_STATUS_OK)
         return DAL_STATUS_OK;

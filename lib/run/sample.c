@@ -251,17 +251,6 @@ static long long steps_towards(const sampling *k, double rest, double h)
     return steps < 1.0 ? 1 : steps > (double)max ? max : (long long)steps;
 }
 
-/* Whether the next event is within the distance `rest`. */
-static dal_status is_event_before(const sampling *k, double rest, bool *is_before)
-{
-    double distance = INFINITY;
-    dal_status status = DAL_STATUS_OK;
-    if (k->run->layout.system->events > 0)
-        status = dal__next_event(k->run, rest, &distance, k->error);
-    *is_before = distance <= fabs(rest);
-    return status;
-}
-
 static dal_status advance_to_row(sampling *k, long long row, double t)
 {
     const double step = k->run->layout.options.step, h = fabs(step);
@@ -271,9 +260,9 @@ static dal_status advance_to_row(sampling *k, long long row, double t)
         const double rest = copysign(1.0, step) * (t - dal_run_time(k->run));
         if (rest <= near) return sample_row(&r, k->run);
         const bool is_within = rest < h - near;
-        bool is_event_first = false;
-        if (is_within) DAL_TRY(is_event_before(k, copysign(rest, step), &is_event_first));
-        if (is_within && !is_event_first) {
+        double event = INFINITY;
+        if (is_within) DAL_TRY(dal__next_event(k->run, copysign(rest, step), &event, k->error));
+        if (is_within && event > rest) {
             DAL_TRY(dal_run_intermediate(k->run, copysign(rest, step), sample_row, &r, k->error));
             return poll(k);
         }

@@ -99,12 +99,12 @@ try 0 study bare.yaml --output third-3 --shard 3/3
 try 0 merge third-3 third-1 third-2 --output thirds
 untimed_cells thirds >two.cells
 expect "other bytes, merged" cmp one.cells two.cells
-cp -r third-1 joined
+cp -r third-1 first-of-all
 find third-2 third-3 -type f -exec cksum {} + >one.files
-try 0 merge third-2 joined third-3 --output joined
+try 0 merge third-2 first-of-all third-3 --output first-of-all
 find third-2 third-3 -type f -exec cksum {} + >two.files
 expect "a source was changed" cmp one.files two.files
-untimed_cells joined >two.cells
+untimed_cells first-of-all >two.cells
 expect "other bytes, merged into one of them" cmp one.cells two.cells
 try 2 merge third-1 third-2 third-3 bare --output twice
 says "' is in 'third-.' and in 'bare'"
