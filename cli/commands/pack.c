@@ -200,12 +200,13 @@ static int describe(pack *p, FILE *readme)
     return status;
 }
 
-static int add_readme(pack *p)
+/* Adds README.txt where the files before it were added; ends the list of them anyway. */
+static int add_readme(pack *p, int status)
 {
     char *text, *name = cli_format("%s/README.txt", p->name);
     size_t length;
     FILE *readme = cli_memstream_open(&text, &length);
-    int status = describe(p, readme);
+    if (status == CLI_DONE) status = describe(p, readme);
     cli_memstream_close(p->names);
     fputs(p->list, readme);
     cli_memstream_close(readme);
@@ -250,9 +251,7 @@ static int write_archive(const settings *s, const char *output, const char *name
     if (status != CLI_DONE) return status;
     p.out = file.stream;
     p.names = cli_memstream_open(&p.list, &p.list_length);
-    status = add_directory(&p, s->directory, "", 0);
-    const int described = add_readme(&p);
-    if (status == CLI_DONE) status = described;
+    status = add_readme(&p, add_directory(&p, s->directory, "", 0));
     tar_end(p.out);
     status = file_output_close(&file, status);
     if (status == CLI_DONE && strcmp(output, "-") != 0)

@@ -100,6 +100,32 @@ try 2 pack disk -o other.tar
 says "too long a name"
 refute "half an archive" test -e other.tar
 
+# Links are not packed, so that what pack adds itself is the first whose name has more than 155 letters before a slash.
+case_is "pack: too long a name of the directory"
+long=$(printf '%0200d' 0)
+linked() {
+    rm -rf "$long" && mkdir "$long"
+    for file in "$@"; do ln -s "$PWD/$file" "$long"; done
+}
+refused() {
+    try 2 pack "$long"
+    alone "^dalembert: '$long/$1' is too long a name$"
+    refute "half an archive" test -e "$long.tar"
+}
+linked disk/manifest.json disk/summary.csv disk/trajectory.npy
+refused builtin/falling-disk.yaml
+linked pair/study.yaml pair/manifest.json pair/systems
+refused builtin/damped-oscillator.yaml
+printf 'systems: [line.yaml]\nintegrators: rk4\nstep: 0.1\ntime: 1\n' >single.yaml
+try 0 study single.yaml -o single --no-page
+linked single/study.yaml single/manifest.json single/systems
+refused line.yaml
+linked orders/order.csv orders/order.json
+refused README.txt
+linked orders/order.csv
+cp orders/order.json "$long"
+refused order.json
+
 case_is "pack: errors"
 mkdir foreign
 echo "not ours" >foreign/notes.txt

@@ -135,11 +135,19 @@ wrote() {
     done <err
     return 1
 }
+# alone PATTERN: one line of stderr, which matches, is all that it wrote.
+alone() {
+    if [ ! -s out ] && [ "$(wc -l <err)" -eq 1 ] && grep -Eq -- "$1" err; then
+        pass
+    else
+        fail "stdout is not empty, or stderr is not one line /$1/"
+    fi
+}
 silent() { if [ -s err ]; then fail "stderr is not empty"; else pass; fi; }
 empty() { if [ -s out ]; then fail "stdout is not empty"; else pass; fi; }
 
-# table: reads lines "STATUS | ARGUMENT... | says PATTERN" and "STATUS | ARGUMENT... | prints PATTERN": each is a call
-# of try, with words as the shell reads them, and what it must write.  A line "case: NAME" begins a case.
+# table: reads lines "STATUS | ARGUMENT... | says PATTERN", or alone or prints in place of says: each is a call of
+# try, with words as the shell reads them, and what it must write.  A line "case: NAME" begins a case.
 table() {
     title=$label
     while IFS= read -r row; do
