@@ -12,9 +12,9 @@ long long order_count_steps(const order_study *s, double h)
 
 const char *order_failure_message(const order_study *s, const order_method *m)
 {
-    for (int i = 0; i < s->levels; i++)
-        if (m->failure[i].status != DAL_STATUS_OK) return m->failure[i].message;
-    return "";
+    int level = 0;
+    while (level < s->levels - 1 && m->failure[level].status == DAL_STATUS_OK) level++;
+    return m->failure[level].message;
 }
 
 dal_space order_space(const order_study *s, const order_method *m)
