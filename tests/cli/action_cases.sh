@@ -102,6 +102,9 @@ says "^dalembert: bad\.csv:7: column y1: 'abc' is not a finite number$"
 edit '7s/,[^,]*/,/'
 try 2 action chaplygin-sleigh bad.csv
 says "^dalembert: bad\.csv:7: column y1: '' is not a finite number$"
+awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "e") k = i } NR == 7 { $k = "abc" } 1' OFS=, lifted.csv >bad.csv
+try 2 action chaplygin-sleigh bad.csv
+alone "^dalembert: bad\.csv:7: column e: 'abc' is not a finite number$"
 head -6 run.csv >bad.csv
 try 2 action chaplygin-sleigh bad.csv
 says '^dalembert: bad\.csv: a curve has 7 rows or more, not 5$'
@@ -113,6 +116,11 @@ printf 't,x\n' >bad.csv
 awk 'BEGIN { for (k = 0; k < 9; k++) print k "," 4.5 - k }' >>bad.csv
 try 2 action log.yaml bad.csv
 says '^dalembert: bad\.csv: the action is not determined at t = 4\.[0-9]*: '
+# At rest where x'' = log(1); 1 - 2 sin^4(pi s) is below 0 about the middle.
+awk 'BEGIN { print "t,x"; for (k = 0; k < 9; k++) print k ",1" }' >rest.csv
+try 0 action log.yaml rest.csv --perturb 1
+try 2 action log.yaml rest.csv --perturb -2
+alone '^dalembert: rest\.csv: the action is not determined at t = [2-5]\.[0-9]*: '
 
 case_is "what has no action"
 table <<'END'

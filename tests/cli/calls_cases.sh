@@ -41,7 +41,7 @@ fails_openly() {
 }
 
 fails_calls() { raises && shared_object fail_call && without_call 0 --version && [ ! -s err ]; }
-if needs 71 "no compiler for calls that fail" fails_calls; then
+if needs 74 "no compiler for calls that fail" fails_calls; then
     motion="line.yaml --integrator rk4 --step 0.1 --time 1"
     cat >ball.yaml <<'EOF'
 coordinates: [x, y]
@@ -62,7 +62,7 @@ EOF
     case_is "a terminal that is full"
     awk 'BEGIN { print "t,x"; for (t = 0; t <= 1; t += 0.125) print t "," t * t }' >curve.csv
     few="ensemble root.yaml --integrator rk4 --step 0.5 --times 0.5,1 --members 300 --seed 1 --vary k=uniform(1,2)"
-    for arguments in list "check line.yaml" "run $motion" "section line.yaml --on x-0.1 ${motion#* }" \
+    for arguments in list "study --show" "check line.yaml" "run $motion" "section line.yaml --on x-0.1 ${motion#* }" \
         "lyapunov $motion" "invariants line.yaml" "dirac line.yaml" "action line.yaml curve.csv" "volume $motion" \
         "order line.yaml --integrators rk4 --time 1" "study short.yaml --output full-study" \
         "$few --output full-ensemble --no-page" "steer line.yaml --to x=1 ${motion#* }"; do
@@ -84,6 +84,7 @@ EOF
     fails_openly run ball.yaml --integrator rk4 --step 0.1 --time 3 --events place/log.csv --output place/rows.csv
     fails_openly generate line.yaml --integrator rk4 --output place/line.c
     fails_openly new place/begun
+    fails_openly help --markdown
     fails_openly order line.yaml --integrators rk4 --time 1 --threads 1 --output place/order.csv
     fails_openly section chaplygin-sleigh-full-turn --on phi=1 --integrator rk4 --step 0.1 --time 9 --output place/section.csv
     fails_openly lyapunov isokinetic --integrator rk4 --step 0.1 --time 2 --output place/means.csv

@@ -23,6 +23,19 @@ case_is "explain: +project improves a quantity after ones that it does not"
 try 0 explain chaplygin-sleigh-offset --integrator rk4
 prints '^With \+project: D1 at rounding, (.* of this, )?turn at [0-9.]+ of this\.$'
 
+# t is a sum of steps of 1/8, which is exact: what +project leaves of no error is no number.
+case_is "explain: a quantity that the motion alone changes"
+cat >clock.yaml <<'END'
+coordinates: [x, y, z]
+lagrangian: (x'^2 + y'^2 + z'^2)/2 - y^2
+constraints: [z' - y*x']
+start: {x': 1, y: 1, z': 1}
+invariants: {clock: t}
+END
+try 0 explain clock.yaml --integrator rk4 --step 0.125 --time 8
+prints '^  clock +100 % +- +- +-$'
+prints '^  D1 +- +100 % .* [0-9]e-[0-9]+$'
+
 case_is "explain: --details"
 try 0 explain $sleigh --details
 silent

@@ -71,6 +71,12 @@ case: values that no option has
 2 | ensemble skate.yaml $run --members 2 --seed 1 --vary 'x=normal(0,1)' --quantiles 0.1,few --output there | says ^dalembert: --quantiles: 'few' is not a number$
 2 | run skate.yaml $run --sensitivities mass | says ^dalembert: --sensitivities: unknown parameter 'mass'
 2 | predict skate.yaml --integrator rk4 --step 0.1,few --time 1 | says ^dalembert: --step: 'few' is not a number$
+2 | help run check | alone ^dalembert: only one COMMAND, not also 'check'$
+2 | predict skate.yaml --integrator rk5 --step 0.1 --time 1 | alone ^dalembert: unknown integrator 'rk5'; did you mean 'rk4'\?$
+2 | predict skate.yaml --integrator rk4 --step few --time 1 | alone ^dalembert: --step: 'few' is not a number$
+2 | predict skate.yaml $run --tolerance 1e-30 | alone ^dalembert: --tolerance: 1e-30 is below .*, the smallest in this precision$
+2 | order skate.yaml --integrators rk4 --time 1 --tolerance 1e-30 | alone ^dalembert: --tolerance: 1e-30 is below
+2 | generate skate.yaml --integrator rk4 --tolerance 1e-30 | alone ^dalembert: --tolerance: 1e-30 is below
 case: names that the system lacks
 2 | check skate.yaml --set mass=2 | says ^dalembert: unknown parameter 'mass'; there is m, J, k$
 2 | action skate.yaml curve.csv --set mass=2 | says ^dalembert: unknown parameter 'mass'; there is m, J, k$

@@ -121,8 +121,16 @@ table <<'END'
 2 | section osc.yaml --on x --integrator rk4 --step 0.3 --time 20 | says is not a whole number of steps of 0.3
 3 | section osc.yaml --on "log(5 - t)" --integrator rk4 --step 0.1 --time 20 | says the section has no value at t = 5
 END
-if needs 1 "no /dev/full" test -e /dev/full; then
+try 4 section osc.yaml --on x $fine --output osc.yaml/rows
+alone "^dalembert: cannot make the directory 'osc.yaml/rows': Not a directory$"
+if needs 6 "no /dev/full" test -e /dev/full; then
     try 4 section osc.yaml --on x $fine --output /dev/full
+    # It ends with the first row that cannot be written.
+    try 4 section osc.yaml --on x --integrator rk4 --step 0.1 --time 1e5 --output /dev/full
+    says "^dalembert: cannot write '/dev/full': No space left on device$"
+    expect "not one message" test "$(grep -c "^dalembert: " err)" -eq 1
+    try 4 lyapunov osc.yaml --integrator rk4 --step 0.1 --time 1e4 --rows 100000 --output /dev/full
+    expect "not one message" test "$(grep -c '^dalembert: ' err)" -eq 1
     counted
 fi
 
@@ -199,6 +207,12 @@ says 'not finite'
 prints 'means over t = 0 \.\. 2\.4$'
 prints '^exponent 2 '
 expect "rows after the end" awk -F, 'NR > 1 && $1 > 2.6 { exit 1 } END { exit NR < 20 }' ending.csv
+
+case_is "a page that cannot be made"
+mkdir paged
+touch paged/report
+try 4 lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --force --output paged
+says "^dalembert: cannot make the directory 'paged/report': File exists$"
 
 case_is "exponents: bad input"
 table <<'END'

@@ -33,6 +33,19 @@ try 0 order line.yaml --integrators rk4 --start "x'=2" --step 0.25 --levels 3 --
 prints '^against gauss12 with h = 0\.03125, itself within [0-9]e-1[0-9]$'
 prints '^rk4 +4 +4\.[01]'
 
+# F is not finite within 0.03 of t = 0.25: no stage of gauss12 is there with h = 0.5, one of h = 0.25 at 0.2415.
+case_is "a reference that fails"
+printf '%s\n' 'coordinates: [x]' 'accelerations: {x: sqrt((t - 0.25)^2 - 0.0009)}' >window.yaml
+try 3 order window.yaml --integrators gauss4 --steps 1,0.5 --time 1
+alone '^dalembert: reference: a value is not finite in the step of 0\.25 from t = 0$'
+# x' = -sqrt(-2 log(x)) reaches 0 at t = sqrt(pi/2) = 1.2533.
+printf '%s\n' 'coordinates: [x]' 'accelerations: {x: -1/abs(x)}' 'start: {x: 1}' >fall.yaml
+try 3 order fall.yaml --integrators dop853 --tolerances 1e-4,1e-6 --time 4
+alone '^dalembert: reference: .* at t = 1\.2533'
+printf '%s\n' 'coordinates: [x]' 'accelerations: {x: -abs(x)}' 'start: {x: 1}' >kink.yaml
+try 0 order kink.yaml --integrators dop853 --tolerances 1e-4,1e-6 --time 1
+prints '^against dop853 with tolerance = 1e-08, '
+
 case_is "modifiers, refusals and failures"
 try 0 order chaplygin-sleigh --integrators gauss4+project,isokinetic-splitting --time 1 --output few.csv
 prints '^gauss4\+project +4 +[34]\.[09]'
@@ -161,6 +174,19 @@ table <<'END'
 2 | order line.yaml --samples 3 | says unknown option
 2 | order line.yaml plane.yaml | says only one SYSTEM
 END
+
+case_is "orders: files in the way"
+mkdir -p files/order.json paged
+touch file paged/report
+small="order line.yaml --integrators rk4 --time 1 --force --output"
+try 4 $small file/orders
+says "^dalembert: cannot make the directory 'file/orders': Not a directory$"
+expect "a second message" test "$(wc -l <err)" -eq 1
+try 4 $small files
+says "^dalembert: cannot write 'files/order.json': Is a directory$"
+expect "a second message" test "$(wc -l <err)" -eq 1
+try 4 $small paged
+says "^dalembert: cannot make the directory 'paged/report': File exists$"
 if needs 1 "no /dev/full" test -e /dev/full; then
     try 4 order line.yaml --integrators rk4 --time 1 --output /dev/full
     counted

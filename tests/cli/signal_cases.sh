@@ -73,3 +73,12 @@ expect "no handlers" ready $pid
 ends_by INT 130 $pid
 says '^dalembert: interrupted$'
 empty
+
+case_is "predict is interrupted: its curves are printed"
+"$program" predict ./swing.yaml --integrator rk4 --time 1e12 --step 0.01 >out 2>err &
+pid=$!
+expect "no handlers" ready $pid
+ends_by INT 130 $pid
+says '^dalembert: interrupted; the curves so far are kept$'
+expect "a second message" test "$(wc -l <err)" -eq 1
+prints '^\./swing\.yaml: changes predicted from t = 0 to '

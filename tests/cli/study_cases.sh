@@ -188,6 +188,11 @@ expect "not the last one" cmp -s closed.yaml dalembert-study/study.yaml
 sed -i 's/"status": "done"/"status": "running"/' dalembert-study/manifest.json
 table <<'END'
 2 | study small.yaml | says 'dalembert-study/study.yaml' exists already
+END
+rm dalembert-study/manifest.json
+mkdir dalembert-study/manifest.json
+table <<'END'
+2 | study small.yaml | alone ^dalembert: 'dalembert-study/manifest.json' is a directory$
 case: output that cannot be written
 4 | study small.yaml --output line.yaml | says line.yaml
 END
