@@ -41,30 +41,32 @@ static const char *const state_words[] = {
 
 /* ---- lists of methods and steps ------------------------------------------------------------ */
 
-static int add_method(order_study *s, const char *name)
+static void add_method(order_study *s, dal_method method)
 {
-    dal_error error = {0};
-    dal_method method;
-    if (dal_method_parse(&method, name, &error) != DAL_STATUS_OK)
-        return cli_error(CLI_USAGE, NULL, &error);
     const size_t count = (size_t)s->method_count + 1;
     s->methods = cli_realloc(s->methods, count * sizeof *s->methods);
     order_method *added = s->methods + s->method_count++;
     *added = (order_method){.method = method};
     dal_method_name(&method, added->name, sizeof added->name);
-    return CLI_DONE;
 }
 
+/* A method by its name, or all that have no modifiers. */
 static int add_methods(order_study *s, const char *name)
 {
     const dal_integrator *k;
-    int status = CLI_DONE;
-    if (strcmp(name, "all") != 0) return add_method(s, name);
-    for (int i = 0; status == CLI_DONE && (k = dal_integrator_at(i)); i++)
+    if (strcmp(name, "all") != 0) {
+        dal_method method;
+        dal_error error = {0};
+        if (dal_method_parse(&method, name, &error) != DAL_STATUS_OK)
+            return cli_error(CLI_USAGE, NULL, &error);
+        add_method(s, method);
+        return CLI_DONE;
+    }
+    for (int i = 0; (k = dal_integrator_at(i)); i++)
         if (!(k->properties & DAL_MODIFIER) &&
             (!s->set->tolerances || k->properties & DAL_ADAPTIVE))
-            status = add_method(s, k->name);
-    return status;
+            add_method(s, (dal_method){{k}});
+    return CLI_DONE;
 }
 
 /* The next of the numbers of an option, which fall. */
