@@ -42,8 +42,8 @@ fails_cleanly() {
 
 fails_allocations() { shared_object fail_allocation && without_memory 0 1 --version && [ ! -s err ]; }
 if sanitized; then
-    cannot 35 "sanitizers have an allocator of their own"
-elif needs 35 "no compiler for allocations that fail" fails_allocations; then
+    cannot 36 "sanitizers have an allocator of their own"
+elif needs 36 "no compiler for allocations that fail" fails_allocations; then
     printf '%s\n' 'title: t' 'integrators: [rk4, gauss4]' 'step: 0.1' 'time: 1' 'systems:' \
         '  - {system: line.yaml, set: {k: [1, 2]}}' >scarce.yaml
     motion="line.yaml --integrator rk4 --step 0.1 --time 1"
@@ -87,6 +87,7 @@ elif needs 35 "no compiler for allocations that fail" fails_allocations; then
     fails_cleanly new place/begun
     prepare() { :; }
     fails_cleanly run $motion --output place
+    fails_cleanly section chaplygin-sleigh-full-turn --on phi=1 --integrator rk4 --step 0.05 --time 10 --output place
     fails_cleanly study scarce.yaml --output place --threads 2 --no-page
     prepare() { cp -R scarce/halves/begun place; }
     fails_cleanly resume place --threads 2 --no-page
