@@ -1,5 +1,6 @@
 /* test_many_constraints.c - the rank check of many constraints, by the factors of F: copies of
  * systems that reach a singular place at a known time, of which one or two do. */
+#include "allocation.h"
 #include "compiler.h"
 #include "fixtures.h"
 #include "run/layout.h"
@@ -205,6 +206,29 @@ static void test_compiled(void)
     check_run(&c, "rk4", true);
 }
 
+/* Matrices of so many constraints are no part of a run: they are allocated for its start and for a
+ * parameter that changes. */
+static void test_memory(void)
+{
+    static const char text[] =
+        "coordinates: ['x[1..40]', 'y[1..40]']\nparameters: {k: 1}\n"
+        "lagrangian: sum(i, 1, 40, x[i]'^2 + y[i]'^2)/2\n"
+        "constraints: [{for: i = 1..40, is: \"y[i]' - k*sin(x[i])*x[i]'\"}]\nstart: {x1': 1}\n";
+    const dal_run_spec spec =
+        fixture_spec(fixture_system(text), "symplectic-euler", DAL_PHYSICAL, 0.1);
+    bool failed = true;
+    for (long count = 0; failed; count++) { /* each of the few, in a quick run, too */
+        dal_run *run = NULL;
+        allocation_fail_after(count);
+        dal_status status = dal_run_create(&run, &spec, NULL);
+        if (status == DAL_STATUS_OK) status = dal_run_set_parameter(run, "k", 2.0, NULL);
+        failed = allocation_failed();
+        allocation_fail_after(-1);
+        CU_ASSERT_EQUAL(status, failed ? DAL_STATUS_MEMORY : DAL_STATUS_OK);
+        dal_run_free(run);
+    }
+}
+
 void suite_many_constraints(void)
 {
     CU_pSuite suite = CU_add_suite("rank of many constraints", compiler_set_up, compiler_tear_down);
@@ -214,4 +238,5 @@ void suite_many_constraints(void)
     CU_add_test(suite, "gradients that become parallel", test_parallel);
     CU_add_test(suite, "lanes", test_lanes);
     CU_add_test(suite, "compiled steps", test_compiled);
+    CU_add_test(suite, "out of memory", test_memory);
 }
