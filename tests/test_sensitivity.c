@@ -305,6 +305,13 @@ static void test_restore(void)
     const size_t size = 3 * (size_t)dal_sensitivity_dimension(one) * sizeof(double);
     const double *x = dal_sensitivity_column(one, 0), *y = dal_sensitivity_column(two, 0);
     CU_ASSERT_EQUAL(memcmp(x, y, size), 0);
+    for (size_t k = 0; k < 3; k++) { /* no column may be damaged */
+        double *const damaged = (double *)(size_t)saved + k * (count / 3), whole = *damaged;
+        *damaged = NAN;
+        CU_ASSERT_EQUAL(dal_sensitivity_restore(two, saved, count, NULL), DAL_STATUS_NOT_FINITE);
+        *damaged = whole;
+    }
+    CU_ASSERT_EQUAL_FATAL(dal_sensitivity_restore(two, saved, count, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_sensitivity_advance(one, 1.0, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_sensitivity_advance(two, 0.78, NULL), DAL_STATUS_OK);
     CU_ASSERT_NOT_EQUAL(memcmp(x, y, size), 0);
@@ -312,6 +319,21 @@ static void test_restore(void)
     CU_ASSERT_EQUAL(memcmp(x, y, size), 0);
     dal_sensitivity_free(one);
     dal_sensitivity_free(two);
+    dal_model_free(d.model);
+}
+
+/* F ends at t = 1, in the part of a step that leads to 1.1. */
+static void test_part_of_step(void)
+{
+    static const char *const names[] = {"x"};
+    sample of = {"rk4", "coordinates: [x]\naccelerations: {x: x*sqrt(1 - t)}\nstart: {x: 1}\n",
+                 NULL, DAL_EFFORT_IDENTITY, 0.0};
+    displaced d;
+    open_sample(&d, &of, DAL_PHYSICAL, 0.4);
+    dal_sensitivity *s = columns_of(d.model, &d.spec, names, 1);
+    CU_ASSERT_EQUAL(dal_sensitivity_advance(s, 0.9, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_sensitivity_advance(s, 1.1, NULL), DAL_STATUS_NOT_FINITE);
+    dal_sensitivity_free(s);
     dal_model_free(d.model);
 }
 
@@ -484,6 +506,7 @@ void suite_sensitivity(void)
     CU_add_test(suite, "of an oscillator, closed form", test_closed_form);
     CU_add_test(suite, "of a lift, closed form", test_lift);
     CU_add_test(suite, "saved and restored", test_restore);
+    CU_add_test(suite, "a part of a step that fails", test_part_of_step);
     CU_add_test(suite, "what is refused", test_refuses);
     CU_add_test(suite, "specs that are refused", test_refused_specs);
     CU_add_test(suite, "columns that fail", test_fails);
