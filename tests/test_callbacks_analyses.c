@@ -137,6 +137,16 @@ static dal_status predict_by_short_motion(trial *t)
     return status;
 }
 
+/* So many steps that velocities go back to D = 0 where F has no Taylor series. */
+static dal_status predict_longer(trial *t)
+{
+    dal_prediction *p = NULL;
+    const double T = 260.0 * TRIAL_STEP;
+    const dal_status status = dal_predict_create(&p, &t->spec, T, NULL, NULL, &t->error);
+    dal_prediction_free(p);
+    return status;
+}
+
 /* What a step changes of D, E and invariants, in quad precision. */
 static dal_status change_in_quad(trial *t)
 {
@@ -282,6 +292,28 @@ static void test_predictions(void)
     trial_each_call(sleigh, "rk4", DAL_PHYSICAL, 0.0, budget);
 }
 
+static dal_status stop_after_half(void *user, double fraction)
+{
+    *(double *)user = fraction;
+    return fraction < 0.5 ? DAL_STATUS_OK : DAL_STATUS_STOPPED;
+}
+
+/* An observer ends the extension of a motion. */
+static void test_interrupted_motion(void)
+{
+    const dal_run_spec spec = fixture_spec(fixture_system(pendulum), "rk4", DAL_PHYSICAL, 0.1);
+    dal_exact_motion *motion = NULL;
+    dal_error error = {0};
+    double last = 0.0;
+    const dal_predict_observer observer = {.user = &last, .step = stop_after_half};
+    CU_ASSERT_EQUAL_FATAL(dal_exact_motion_create(&motion, &spec, 0, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_exact_motion_extend(motion, 40.0, &observer, &error),
+                    DAL_STATUS_INTERRUPTED);
+    CU_ASSERT_EQUAL(last, 0.5);
+    CU_ASSERT_STRING_EQUAL(error.message, "interrupted");
+    dal_exact_motion_free(motion);
+}
+
 static void test_models(void)
 {
     trial_each_model_call(sleigh, "rk4", DAL_PHYSICAL, 0.0, differentiate);
@@ -293,6 +325,10 @@ static void test_models(void)
 
 /* Its motions have no Taylor series. */
 static const char rough[] = "coordinates: [x]\nlagrangian: x'^2/2 - abs(x)^3\nstart: {x: 1}\n";
+
+static const char rough_track[] =
+    "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - abs(x)^3\nconstraints: [y' - x*x']\n"
+    "start: {x: 1}\n";
 
 /* The first sensitivities of a model find its tangent systems. */
 static void each_allocation_of_tangents(void)
@@ -318,6 +354,7 @@ static void test_memory(void)
     tangent = fixture_tangent(sleigh);
     trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, predict);
     trial_each_allocation(rough, "rk4", DAL_PHYSICAL, predict);
+    trial_each_allocation(rough_track, "rk4", DAL_PHYSICAL, predict_longer);
     trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, predict_by_motion);
     trial_each_allocation(rough, "rk4", DAL_PHYSICAL, predict_by_motion);
     trial_each_allocation(sleigh, "gauss4", DAL_PHYSICAL, predict_by_short_motion);
@@ -335,6 +372,7 @@ void suite_callbacks_analyses(void)
     CU_add_test(suite, "exponents", test_exponents);
     CU_add_test(suite, "pairings", test_pairings);
     CU_add_test(suite, "predictions and budgets", test_predictions);
+    CU_add_test(suite, "an observer that ends a motion", test_interrupted_motion);
     CU_add_test(suite, "sensitivities and steering", test_models);
     CU_add_test(suite, "out of memory", test_memory);
 }

@@ -257,6 +257,8 @@ static void null_dal_adjoint_pairing(void)
     REFUSED(dal_adjoint_pairing(&spec, tangent, NULL, 1, &s, error));
     REFUSED(dal_adjoint_pairing(&spec, tangent, numbers, -1, &s, error));
     REFUSED(dal_adjoint_pairing(&spec, tangent, numbers, 1, NULL, error));
+    const double none[] = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    CU_ASSERT_EQUAL(dal_adjoint_pairing(&spec, tangent, none, 1, &s, NULL), DAL_STATUS_NOT_FINITE);
 }
 
 /* ---- Dirac's procedure ---- */
