@@ -36,6 +36,9 @@ static const struct {
     {"force on y", "forces: {y: abs(x)}", 1},
     {"force on y", "forces: {y: \"min(x, k*y)\"}", 1},
     {"force on y", "forces: {y: \"if(t < 1, t - 1, 0)\"}", 1},
+    /* Without bound on one side of x = 2, where it passes the value on the other. */
+    {"force on y", "forces: {y: \"if(x > 2, 22, -log(2 - x))\"}", 0},
+    {"force on y", "forces: {y: \"if(x > 2, -log(x - 2), 22)\"}", 0},
     {"force on y", "forces: {y: x'*abs(x')}", 2},
     {"force on y", "forces: {y: sign(x)*sqrt(abs(x))}", 1},
     {"force on y", "forces: {y: abs(x)^1.5}", 2},
@@ -54,6 +57,7 @@ static const struct {
     {"force on y", "forces: {y: f(x)}\n" TABLE("linear"), 1},
     {"force on y", "forces: {y: x'*f(t)}\n" TABLE("linear"), 1},
     {"force on y", "forces: {y: f(x)}\n" TABLE("cubic"), 3},
+    {"force on y", "forces: {y: f(abs(x))}\n" TABLE("cubic"), 1},
     {"lagrangian", "lagrangian: (x'^2 + y'^2)/2 - f(x)\n" TABLE("cubic"), 2},
     {"lagrangian", "lagrangian: (x'^2 + y'^2)/2 - k*abs(x)", 0},
     {"lagrangian", "lagrangian: (x'^2 + y'^2)/2 - k*max(x, 0)^2", 1},

@@ -309,11 +309,15 @@ static const bad_file functions[] = {
 
 /* ---- sizes and indices ---- */
 
+#define C24  "cccccccccccccccccccccccc"
 #define MANY "sizes: {N: 3}\ncoordinates: [\"x[1..N]\"]\n"
 
 static const bad_file indices[] = {
     {DAL_STATUS_TOO_LARGE, "the indices make more than 65536 entries",
      "coordinates: [\"@x[1..70000]\"]\n"},
+    {DAL_STATUS_TOO_LARGE,
+     "'cccccccccccccccccccccccccccccccccccccccc...' in parameters has more than 100 characters",
+     "sizes: {N: 100000}\n" XY L "parameters: {@\"" C24 C24 C24 C24 "c[N]\": 1}\n"},
     {DAL_STATUS_NAME, "M + 1: 'M' is no size", "sizes: {@N: M + 1, M: 2}\n" XY L},
     {DAL_STATUS_MODEL, "'5/2' is not a whole number from 0 to 1000000", "sizes: {@N: 5/2}\n" XY L},
     {DAL_STATUS_MODEL, "'0 - 1' is not a whole number from 0 to 1000000",

@@ -206,6 +206,11 @@ static void test_failures(void)
     const char *rootless = "coordinates: [x]\nlagrangian: x'^2/2\nforces: {x: x'^2 + 1}\n";
     fails(rootless, "implicit-midpoint", 50.0, 10, NULL, 0, DAL_STATUS_NOT_CONVERGED,
           "did not converge");
+    /* Before it e = 1 - t has reached 0, where nothing is defined either. */
+    const char *rootless_gauge = "coordinates: [x]\nlagrangian: x'^2/2\nforces: {x: x'^2 + 1}\n"
+                                 "gauge: {e: 1, mu_e: -1}\n";
+    fails(rootless_gauge, "implicit-midpoint", 50.0, 10, NULL, 0, DAL_STATUS_GAUGE,
+          "e reached zero");
     fails(rootless, "gauss6", 50.0, 10, NULL, 0, DAL_STATUS_NOT_CONVERGED, "did not converge");
     fails(rootless, "symplectic-euler-11", 50.0, 10, NULL, 0, DAL_STATUS_NOT_CONVERGED,
           "did not converge");
