@@ -37,8 +37,8 @@ static const struct {
     {"force on y", "forces: {y: \"min(x, k*y)\"}", 1},
     {"force on y", "forces: {y: \"if(t < 1, t - 1, 0)\"}", 1},
     /* Without bound on one side of x = 2, where it passes the value on the other. */
-    {"force on y", "forces: {y: \"if(x > 2, 22, -log(2 - x))\"}", 0},
-    {"force on y", "forces: {y: \"if(x > 2, -log(x - 2), 22)\"}", 0},
+    {"force on y", "forces: {y: \"if(x > 2, 22, -log(4 - x^2))\"}", 0},
+    {"force on y", "forces: {y: \"if(x > 2, -log(x^2 - 4), 22)\"}", 0},
     {"force on y", "forces: {y: x'*abs(x')}", 2},
     {"force on y", "forces: {y: sign(x)*sqrt(abs(x))}", 1},
     {"force on y", "forces: {y: abs(x)^1.5}", 2},

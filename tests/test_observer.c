@@ -154,6 +154,15 @@ static void test_refusals(void)
 /* ---- names ---- */
 
 /* Invariants of a system written in C may lack names. */
+/* Steps that nobody observes fail, too. */
+static void test_failure(void)
+{
+    const char *const text = "coordinates: [x]\naccelerations: {x: sqrt(3.05 - t)}\n";
+    const dal_run_spec spec = fixture_spec(fixture_system(text), "rk4", DAL_PHYSICAL, 0.1);
+    calls all = {0};
+    CU_ASSERT_EQUAL(sampled(&spec, false, 0, &all, NULL), DAL_STATUS_NOT_FINITE);
+}
+
 static void test_names(void)
 {
     static const char text[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
@@ -177,5 +186,6 @@ void suite_observer(void)
     CU_pSuite suite = CU_add_suite("observer", NULL, NULL);
     CU_add_test(suite, "at steps, and rows at given times", test_calls);
     CU_add_test(suite, "callbacks that refuse", test_refusals);
+    CU_add_test(suite, "a step that fails", test_failure);
     CU_add_test(suite, "names of observables", test_names);
 }
