@@ -1,4 +1,5 @@
 /* test_functions.c - what a system file defines for its own formulas: functions, sizes, indices. */
+#include "fixtures.h"
 #include "quick.h"
 #include "reference.h"
 
@@ -259,6 +260,19 @@ static void test_dense(void)
     }
 }
 
+/* A constraint with more denominators than a run can check. */
+static void test_guards(void)
+{
+    static const char text[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                               "constraints: [\"y' - sum(i, 1, 4097, x'/(x + i))\"]\n";
+    dal_model *model = fixture_model(text);
+    const dal_system *system;
+    dal_error error = {0};
+    CU_ASSERT_EQUAL(dal_model_system(model, &system, &error), DAL_STATUS_TOO_LARGE);
+    CU_ASSERT_STRING_EQUAL(error.message, "the equations of the system are too large");
+    dal_model_free(model);
+}
+
 void suite_functions(void)
 {
     CU_pSuite suite = CU_add_suite("functions", NULL, NULL);
@@ -270,4 +284,5 @@ void suite_functions(void)
     CU_add_test(suite, "a thousand coordinates", test_thousand);
     CU_add_test(suite, "a sparse mass matrix", test_sparse);
     CU_add_test(suite, "equations that are too dense", test_dense);
+    CU_add_test(suite, "too many denominators", test_guards);
 }
