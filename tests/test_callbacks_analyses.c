@@ -137,7 +137,7 @@ static dal_status predict_by_short_motion(trial *t)
     return status;
 }
 
-/* So many steps that velocities go back to D = 0 where F has no Taylor series. */
+/* Enough steps for velocities to go back to D = 0 where F has no Taylor series. */
 static dal_status predict_longer(trial *t)
 {
     dal_prediction *p = NULL;

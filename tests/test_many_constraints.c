@@ -206,7 +206,7 @@ static void test_compiled(void)
     check_run(&c, "rk4", true);
 }
 
-/* Matrices of so many constraints are no part of a run: they are allocated for its start and for a
+/* Matrices of these constraints are no part of a run: they are allocated for its start and for a
  * parameter that changes. */
 static void test_memory(void)
 {
