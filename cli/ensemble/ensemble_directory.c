@@ -112,9 +112,13 @@ static int read_quantiles(void *user, const document *doc, yaml_node_t *value,
     int status = CLI_DONE;
     const int count = document_count(value);
     if (count > ENSEMBLE_QUANTILES) return document_fail(doc, value, "too many quantiles");
-    for (e->quantiles = 0; e->quantiles < count && status == CLI_DONE; e->quantiles++)
-        status = document_number(doc, document_item(doc, value, e->quantiles), key->name,
-                                 &e->quantile[e->quantiles]);
+    for (e->quantiles = 0; e->quantiles < count && status == CLI_DONE; e->quantiles++) {
+        const yaml_node_t *item = document_item(doc, value, e->quantiles);
+        double *p = &e->quantile[e->quantiles];
+        status = document_number(doc, item, key->name, p);
+        if (status == CLI_DONE && !(*p >= 0.0 && *p <= 1.0))
+            status = document_fail(doc, item, "quantiles: %g is not from 0 to 1", *p);
+    }
     return status;
 }
 

@@ -147,6 +147,19 @@ says "belongs to another ensemble"
 try 2 $(echo "$begin" | sed 's/--seed 3/--seed 4/') --output third-1 --shard 2/3
 says "belongs to another ensemble"
 
+case_is "shards in one directory are resumed"
+for k in 1 2; do try 0 $begin --output halves --shard $k/2 --threads 1; done
+for k in 1 2; do : >halves/chunks-$k-of-2; done
+rm halves/statistics.csv
+printf '%8000s' '' | dd of=halves/final.npy bs=1 seek=300 conv=notrunc 2>/dev/null
+try 0 resume halves --no-page
+expect "other bytes" same_ensemble whole halves
+
+case_is "an ensemble is merged into itself"
+rm halves/statistics.csv
+try 0 merge halves --output halves --no-page
+expect "other bytes" same_ensemble whole halves
+
 case_is "shards side by side in one directory"
 pids=
 for k in 1 2 3; do
@@ -214,7 +227,9 @@ expect "no directory" reaches $other test -e busy/chunks
 expect "no signals are caught" ready $other
 try 2 resume busy
 says "'busy/chunks': another process is writing to it"
-ends_by KILL 137 $other
+ends_by INT 130 $other
+says "^dalembert: interrupted; resume with: dalembert resume busy$"
+expect "members are done that are not" test "$(tail -c 2 busy/chunks | od -An -tx1)" = " 00 00"
 
 case_is "an ensemble is resumed"
 try 2 $begin --output whole
@@ -352,6 +367,26 @@ for number in members:0 members:-1 members:1e99 seed:-3; do
     try 2 resume changed
     says "^dalembert: changed/manifest.json:[0-9]+:[0-9]+: (${number%:*}: .* is out of range|0 members)$"
 done
+
+case_is "a manifest that no ensemble has"
+while IFS='|' read -r change message; do
+    rm -rf changed && cp -r whole changed
+    sed -i "$change" changed/manifest.json
+    try 2 resume changed --no-page
+    says "^dalembert: $message$"
+    expect "more messages" test "$(wc -l <err)" -eq 1
+    empty
+done <<'END'
+s/"vary": .*/"vary": [],/|--vary is missing: nothing would vary
+s/"vary": .*/"vary": [[1]],/|changed/manifest.json:[0-9]+:[0-9]+: vary: a single value is required
+s/normal/gauss/|--vary: unknown distribution 'gauss', not one of uniform normal lognormal
+s/"quantiles": .*/"quantiles": [0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,1],/|changed/manifest.json:[0-9]+:[0-9]+: too many quantiles
+s/"quantiles": .*/"quantiles": [0.5, "x"],/|changed/manifest.json:[0-9]+:[0-9]+: quantiles: 'x' is not a number
+s/"quantiles": .*/"quantiles": [0.5, 2],/|changed/manifest.json:[0-9]+:[0-9]+: quantiles: 2 is not from 0 to 1
+s/"members": .*/"members": "x",/|changed/manifest.json:[0-9]+:[0-9]+: members: 'x' is not a number
+s/"axes": .*/"axes": []/|changed/manifest.json:[0-9]+:[0-9]+: axes: a single value is required
+s/"dalembert": .*/"dalembert": "99.0.0",/|changed/manifest.json:[0-9]+:[0-9]+: made by dalembert 99.0.0; this is .*
+END
 
 case_is "the page of an ensemble"
 try 0 report whole
