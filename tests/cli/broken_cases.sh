@@ -71,6 +71,26 @@ for file in cells.csv quantities.csv; do
     expect "another $file" cmp cut.csv plain.csv
 done
 
+# refused_room FILE: that it cannot be written is all that is said.
+refused_room() {
+    says "^dalembert: cannot write '$1': File too large$"
+    expect "more messages" test "$(wc -l <err)" -eq 1
+    empty
+}
+case_is "an ensemble that is resumed or merged on a full disk"
+many="ensemble line.yaml --integrator rk4 --step 0.5 --time 1 --members 1000 --seed 1 --threads 1 --no-page
+    --vary k=uniform(1,2) --native off"
+# 48 bytes a member in final.npy, or 16 where there is no lift, 24 in members.npy.
+try 0 $many --space physical --output members
+rm -rf some && cp -r members some && rm some/chunks some/*.csv
+limited 40 4 resume some --threads 1 --no-page
+refused_room some/members.npy
+try 0 resume some --no-page
+for file in members.npy final.npy statistics.csv; do expect "another $file" cmp members/$file some/$file; done
+for k in 1 2; do try 0 $many --shard $k/2 --output part-$k; done
+limited 60 4 merge part-1 part-2 --output part-2 --threads 1 --no-page
+refused_room part-2/final.npy
+
 # Each column that a page needs of a table.
 case_is "tables of an older version"
 printf 'coordinates: [x]\nlagrangian: (x'"'"'^2 - x^2)/2\nstart: {x'"'"': 1}\n' >swing.yaml

@@ -56,6 +56,15 @@ try 0 resume small --members 700 --no-page
 try 0 $members --members 700 --time 1 --output whole
 expect "other bytes" same_ensemble whole small
 
+case_is "grown chunks that cannot be read"
+mkdir small/chunks.grown
+for command in "resume small --members 800" "merge small --output merged"; do
+    try 4 $command --no-page
+    says "^dalembert: cannot read 'small/chunks.grown': Is a directory$"
+    expect "more messages: $command" test "$(wc -l <err)" -eq 1
+    empty
+done
+
 case_is "made by MPI"
 if needs 4 "no mpirun, or no dalembert-mpi (make mpi)" has_mpi; then
     rm -rf small whole
