@@ -76,6 +76,12 @@ int event_log_open(event_log *log, const run_simulation *simulation, const char 
     return status;
 }
 
+static int write_failure(event_log *log)
+{
+    log->failed = true;
+    return cli_io("write", log->path);
+}
+
 int event_log_add(event_log *log, const dal_occurrence *event)
 {
     if (!log->file) return CLI_DONE;
@@ -88,24 +94,25 @@ int event_log_add(event_log *log, const dal_occurrence *event)
         csv_put(log->file, state[i]);
     }
     fputc('\n', log->file);
-    return ferror(log->file) ? cli_io("write", log->path) : CLI_DONE;
+    return ferror(log->file) ? write_failure(log) : CLI_DONE;
 }
 
 int event_log_flush(event_log *log, file_sync sync)
 {
     if (!log->file) return CLI_DONE;
     if (fflush(log->file) != 0 || (sync == FILE_SYNCED && fsync(fileno(log->file)) != 0))
-        return cli_io("write", log->path);
+        return write_failure(log);
     return CLI_DONE;
 }
 
 int event_log_close(event_log *log)
 {
-    if (!log->file) return CLI_DONE;
-    const bool failed = ferror(log->file) != 0;
-    const bool closed = fclose(log->file) == 0;
+    FILE *file = log->file;
+    if (!file) return CLI_DONE;
     log->file = NULL;
-    return failed || !closed ? cli_io("write", log->path) : CLI_DONE;
+    if (!log->failed) return cli_close(file, log->path);
+    if (file != stdout) fclose(file);
+    return CLI_IO;
 }
 
 /* ---- reading ------------------------------------------------------------------------------- */

@@ -13,6 +13,7 @@ typedef struct event_log {
     FILE *file; /* NULL: none is written */
     const char *path;
     const run_simulation *simulation;
+    bool failed; /* which was printed */
 } event_log;
 
 /* Creates a file; or, for a run that continues, cuts off what is after the events that it has
