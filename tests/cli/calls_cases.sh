@@ -1,4 +1,4 @@
-# Calls of the system that fail: wherever one does, a command ends with a message and another status, or has written
+# Calls of the system that fail: wherever one does, a command ends with one message and another status, or has written
 # what it writes otherwise and does not say that it cannot.  fail_call.c lets the k-th call fail; a command tries
 # the first from each place (fail_place.h) that no command before has tried, and FAILING_CALLS others.
 
@@ -28,6 +28,8 @@ fails_openly() {
         [ ! -e place ] || left=$(find place -name '*.new')
         if [ -n "$left" ]; then
             fault="$fault $k:file"
+        elif [ "$(grep -c '^dalembert: cannot ' err)" -gt 1 ]; then
+            fault="$fault $k:messages"
         elif [ $status -eq "$well" ]; then
             without_times other
             same_files well other >/dev/null && ! wrote 'dalembert: cannot ' || fault="$fault $k:other"
@@ -41,7 +43,7 @@ fails_openly() {
 }
 
 fails_calls() { raises && shared_object fail_call && without_call 0 --version && [ ! -s err ]; }
-if needs 74 "no compiler for calls that fail" fails_calls; then
+if needs 80 "no compiler for calls that fail" fails_calls; then
     motion="line.yaml --integrator rk4 --step 0.1 --time 1"
     cat >ball.yaml <<'EOF'
 coordinates: [x, y]
@@ -97,20 +99,26 @@ EOF
     fails_openly study short.yaml --output place --threads 1 --no-page
     fails_openly steer line.yaml --to x=1 --integrator gauss4 --step 0.1 --time 1 --output place
     fails_openly volume $motion --output place
-    sed 's/^time/rows: none\ntime/' short.yaml >bare.yaml
+    sed 's/^time/rows: none\npredict: on\ntime/' short.yaml >bare.yaml
+    echo 'expect: {line.yaml_k=1: {rk4: {state: done}}}' >>bare.yaml
     fails_openly study bare.yaml --output place --threads 1 --no-page
+    fails_openly study bare.yaml --output place --threads 1 --no-page --checkpoint 0
     fails_openly $few --threads 1 --no-page --output place
+    fails_openly $few --threads 1 --no-page --checkpoint 0 --output place
 
     case_is "calls that fail: directories that were begun"
     mkdir begun
     for shard in 1 2; do
         try 0 study short.yaml --shard $shard/2 --output begun/study-$shard --threads 1
         try 0 $few --shard $shard/2 --output begun/ensemble-$shard --threads 1
+        try 0 study bare.yaml --shard $shard/2 --output begun/bare-$shard --threads 1
     done
     try 0 study short.yaml --output whole-study --no-page
     try 0 $few --output whole-ensemble --no-page
     prepare() { cp -R begun place; }
     fails_openly merge place/study-1 place/study-2 --output place/study --threads 1 --no-page
+    fails_openly merge place/bare-1 place/bare-2 --output place/bare --threads 1 --no-page
+    fails_openly merge place/bare-1 place/bare-2 --output place/bare-2 --threads 1 --no-page
     fails_openly merge place/ensemble-1 place/ensemble-2 --output place/ensemble --threads 1 --no-page
     prepare() { cp -R begun/study-1 place && rm -r place/runs/*; }
     fails_openly resume place --threads 1 --no-page
