@@ -98,6 +98,15 @@ prints '^  rk4 +refused: '
 prints '^  rk4 .* only +10 +4\.0$'
 expect "not 2 refused" test "$(column state there/cells.csv | grep -c refused)" -eq 2
 
+case_is "a manifest that is a directory"
+mkdir -p odd/manifest.json
+for arguments in "--output odd" "--output odd --force"; do
+    try 2 study refused.yaml --no-page $arguments
+    says "^dalembert: 'odd/manifest.json' is a directory$"
+    expect "more messages: $arguments" test "$(wc -l <err)" -eq 1
+    empty
+done
+
 case_is "an interrupted study keeps what is finished"
 cat >endless.yaml <<'END'
 integrators: [rk4]
@@ -196,6 +205,11 @@ table <<'END'
 case: output that cannot be written
 4 | study small.yaml --output line.yaml | says line.yaml
 END
+rm dalembert-study/manifest.json
+mkdir dalembert-study/manifest.json
+try 2 study small.yaml
+says "^dalembert: 'dalembert-study/manifest.json' is a directory$"
+expect "more messages" test "$(wc -l <err)" -eq 1
 try 4 study small.yaml --output /proc/nowhere
 says '/proc/nowhere'
 if needs 2 "no /dev/full" test -w /dev/full; then
@@ -243,6 +257,11 @@ try 0 study rows.yaml --output there --force --no-page
 is_screen
 prints '^ 1 plane\.yaml +2 line\.yaml$'
 expect "other rows: $(rows)" test "$(rows)" = "gauss4+project rk4 "
+# A holonomic constraint adds +project, which the list need not name.
+printf '%s\n' 'integrators: [rk4, gauss4]' 'representatives: gauss4' 'step: 0.1' 'time: 1' 'starts: physical' \
+    'systems: [spherical-pendulum]' >completed.yaml
+try 0 study completed.yaml --output there --force --no-page
+expect "other rows: $(rows)" test "$(rows)" = "gauss4+project "
 sed -i /representatives/d rows.yaml
 try 0 study rows.yaml --output there --force --no-page
 is_screen

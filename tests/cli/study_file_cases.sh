@@ -99,6 +99,16 @@ try 0 study projected.yaml --output there --force
 E_first=$(column E_first there/cells.csv)
 expect "E(0) = $E_first" awk "BEGIN { exit !($E_first - 0.53061959794457902 < 4e-16 && 0.53061959794457902 - $E_first < 4e-16) }"
 
+# x (x' - 1) restricts nothing at x = 0.
+printf '%s\n' 'coordinates: [x, y]' "lagrangian: (x'^2 + y'^2)/2" "constraints: [x*(x' - 1)]" "start: {x': 1}" >loose.yaml
+bad "${common}seeds: 7\nsystems: [{system: loose.yaml, start: {y: {between: [1, 2]}}}]\n" \
+    '^dalembert: bad.yaml:6:[0-9]+: loose.yaml_seed=7: no start on D = 0 was found: constraint 1 restricts no velocity'
+
+case_is "more rows than memory is taken for"
+bad 'integrators: rk4\nstep: 0.5\ntime: 1e9\nsamples: 5e8\nstarts: physical\nsystems: [line.yaml]\n' \
+    '^dalembert: --samples: 500000000 are too many for --sampling steps$'
+expect "more messages" test "$(wc -l <err)" -eq 1
+
 case_is "statements that hold, and that do not"
 expecting() {
     printf 'integrators: [rk4, gauss4]\nstep: 0.01\ntime: 3\nstarts: physical\nsystems:

@@ -1,6 +1,6 @@
 # Studies in pieces: interrupted and killed anywhere, in shards and merged, by several processes.
 
-needs 149 "no compiler for signals at given places" raises || return 0
+needs 151 "no compiler for signals at given places" raises || return 0
 cp plane.yaml plane
 cat >pieces.yaml <<'END2'
 title: many short runs and a long one
@@ -155,6 +155,7 @@ echo '# changed' >>shard-2/systems/plane.yaml
 table <<'END'
 2 | merge shard-1 shard-2 shard-3 --output incomplete | says 'shard-2/systems/plane.yaml' and 'shard-1/systems/plane.yaml' differ
 2 | merge shard-1 nowhere --output incomplete | says 'nowhere' holds no study
+2 | merge nowhere shard-1 --output incomplete | says ^dalembert: 'nowhere' holds no study: there is no nowhere/study.yaml$
 2 | merge --output incomplete | says the DIR... is missing
 2 | merge shard-1 | says --output is missing
 END

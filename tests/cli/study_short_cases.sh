@@ -9,6 +9,7 @@ systems:
   - system: chaplygin-sleigh
     start: {phi': {from: 0.5, to: 1.5, count: 4}}
   - {system: plane.yaml, label: plane, starts: [surface, physical]}
+  - {system: plane.yaml, label: later, starts: physical, from: 0.5}
   - {system: chaplygin-sleigh-vakonomic, integrators: rk4}
   - {system: appell-hamel, starts: physical, time: 30, set: {w0: -1}, integrators: gauss4}
 expect:
@@ -85,6 +86,11 @@ says "other/results/all: results of an earlier version; begin the study again wi
 printf 'no such file of results' >other/results/all
 try 2 resume other
 says "other/results/all: it does not begin as a file of results"
+cp bare/results/all other/results/all
+printf 'no such file of results' >other/results/1-of-2
+try 2 resume other
+says "^dalembert: other/results/1-of-2: it does not begin as a file of results$"
+empty
 rm other/results/all
 mkdir other/results/all
 try 4 resume other
@@ -99,6 +105,12 @@ try 0 study bare.yaml --output third-3 --shard 3/3
 try 0 merge third-3 third-1 third-2 --output thirds
 untimed_cells thirds >two.cells
 expect "other bytes, merged" cmp one.cells two.cells
+cp -r third-3 damaged
+printf 'no such file of results' >damaged/results/3-of-3
+try 2 merge third-1 third-2 damaged --output no-thirds
+says "^dalembert: damaged/results/3-of-3: it does not begin as a file of results$"
+expect "more messages" test "$(wc -l <err)" -eq 1
+expect "something was made" test ! -e no-thirds
 cp -r third-1 first-of-all
 find third-2 third-3 -type f -exec cksum {} + >one.files
 try 0 merge third-2 first-of-all third-3 --output first-of-all
@@ -125,6 +137,15 @@ systems:
 END2
 "$program" study long.yaml --output long --threads 2 --checkpoint 0 >out 2>err &
 expect "no results" reaches $! has_bytes long/results/all $((5 * 800))
+# Another process has results, too, which it cannot add.
+cksum <long/results/all >before
+cp long/study.yaml kept.yaml
+sed '/1e12/d; s/time: 1,/time: 2,/' long.yaml >long/study.yaml
+try 2 resume long
+says "^dalembert: 'long/results/all': another process is writing to it$"
+cp kept.yaml long/study.yaml
+cksum <long/results/all >after
+expect "it has written" cmp before after
 ends_by INT 130 $!
 says 'interrupted; resume with: dalembert resume long'
 expect "results are lost" test "$(grep -c ',done,' long/cells.csv)" -eq 5
