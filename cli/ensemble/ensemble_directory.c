@@ -151,8 +151,6 @@ static const document_key keys[] = {{"members", read_integer, offsetof(ensemble,
 int ensemble_directory_read_request(ensemble_directory *dir, ensemble *e)
 {
     char *bytes;
-    if (!file_exists(dir->manifest))
-        return cli_fail(CLI_USAGE, "'%s' holds no ensemble", dir->path);
     int status = store_read_manifest(dir->manifest, &dir->doc, &bytes);
     free(bytes);
     if (status != CLI_DONE) return status;
