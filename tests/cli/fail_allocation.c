@@ -3,7 +3,6 @@
  * From main on, allocation FAIL_AT (the first is 1) and FAIL_COUNT - 1 after it fail, all after it
  * without FAIL_COUNT; how many there were is written to FAIL_LOG.  Programs that it starts have
  * memory again. */
-#define FAIL_DEPTH 3
 #include "fail_place.h"
 #include <errno.h>
 #include <stdatomic.h>

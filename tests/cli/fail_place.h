@@ -1,5 +1,5 @@
 /* fail_place.h - the places from which a program that is started with LD_PRELOAD makes its calls: a
- * place is the FAIL_DEPTH nearest returns into the program itself, as who includes this defines. */
+ * place is the FAIL_DEPTH nearest returns into the program itself. */
 #ifndef DALEMBERT_FAIL_PLACE_H
 #define DALEMBERT_FAIL_PLACE_H
 #ifndef _GNU_SOURCE
@@ -11,6 +11,9 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#ifndef FAIL_DEPTH
+#define FAIL_DEPTH 3
+#endif
 enum { FAIL_FRAMES = 24, FAIL_PLACES = 4096 };
 
 static uintptr_t program_begin, program_end; /* its code */
