@@ -7,7 +7,6 @@
 #include "gnuplot.h"
 #include "ui/memory.h"
 #include "ui/message.h"
-#include "ui/signals.h"
 
 #include "file.h"
 #include "text.h"
@@ -195,12 +194,8 @@ static int run(const char *directory, const char *path)
         if (chdir(directory) == 0) execlp("gnuplot", "gnuplot", script, (char *)NULL);
         _exit(errno == ENOENT ? NOT_FOUND : 1);
     }
-    if (cli_interrupted()) kill(child, SIGTERM);
-    while (waitpid(child, &state, 0) < 0) {
+    while (waitpid(child, &state, 0) < 0)
         if (errno != EINTR) return cli_io("wait for", "gnuplot");
-        if (cli_interrupted()) kill(child, SIGTERM);
-    }
-    if (cli_interrupted()) return cli_fail(CLI_SIGNAL, "interrupted while gnuplot drew '%s'", path);
     if (WIFEXITED(state) && WEXITSTATUS(state) == 0) return CLI_DONE;
     if (WIFEXITED(state) && WEXITSTATUS(state) == NOT_FOUND)
         return cli_fail(CLI_IO, "gnuplot is not installed; it draws '%s', which is written", path);
