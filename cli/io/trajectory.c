@@ -343,7 +343,6 @@ int writer_append(trajectory_writer *writer, const double *values)
 
 int writer_sync(trajectory_writer *writer, file_sync sync)
 {
-    if (writer->file) return fflush(writer->file) == 0 ? CLI_DONE : failed(writer);
     if (flush(writer) != CLI_DONE) return CLI_IO;
     if (sync == FILE_SYNCED && fsync(writer->descriptor) != 0) return failed(writer);
     return write_rows_number(writer) ? CLI_DONE : failed(writer);
