@@ -99,6 +99,25 @@ echo 1 >"disk/$long/$long.csv"
 try 2 pack disk -o other.tar
 says "too long a name"
 refute "half an archive" test -e other.tar
+far=$(printf '%0170d' 0)
+mv "disk/$long" beside && mv disk "$far"
+try 2 pack "$far" -o other.tar
+says "^dalembert: '$far/[a-z]*\.json' is too long a name$"
+expect "it goes on" test "$(wc -l <err)" -eq 1
+mv "$far" disk && mv beside "disk/$long"
+mkdir "$far" && : >"$far/lock"
+try 2 pack "$far" -o other.tar
+says "^dalembert: '$far/README.txt' is too long a name$"
+
+case_is "pack: a file whose length has no number in an archive"
+cp -r pair large
+if needs 3 "no file may have 8 GB" truncate -s 8589934592 large/trajectory.npy; then
+    try 2 pack large --all
+    says "^dalembert: 'large/trajectory.npy' has 8 GB or more$"
+    refute "half an archive" test -e large.tar
+    counted
+fi
+rm -r large
 
 # Links are not packed, so that what pack adds itself is the first whose name has more than 155 letters before a slash.
 case_is "pack: too long a name of the directory"
