@@ -58,6 +58,7 @@ tr '4' '\0' <one/cells.csv >cut && damaged cut ': byte [0-9]+ is a NUL$'
 
 case_is "a study of two documents"
 bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [line.yaml]\n---\ntime: 2\n' '^dalembert: bad.yaml:6:1: a second document$'
+bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [line.yaml]\n---\ntime: *b\n' '^dalembert: bad.yaml:6:7: found undefined alias$'
 
 case_is "a library of charts that would end its element"
 try 0 run line.yaml --integrator rk4 --step 0.1 --time 1 --samples 3 --output charted
@@ -112,6 +113,34 @@ change=heads && not_whole 4 of-run/trajectory.npy "'other/trajectory.npy' has fe
 change=folder && not_whole 4 of-run/trajectory.npy "cannot read 'other/trajectory.npy': Is a directory"
 change=empty && not_whole 2 of-study/study.yaml "other/study.yaml: it is empty"
 change=folder && not_whole 4 of-study/study.yaml "cannot read 'other/study.yaml': Is a directory"
+sed 's/"start": {[^}]*}/"start": [1]/' of-section/section.json >listed
+rm -rf other && cp -r of-section other && mv listed other/section.json
+try 2 report other
+says '^dalembert: other/section.json:[0-9]+:[0-9]+: settings: names and values are required$'
+
+case_is "a label that is not of the study"
+rm -rf other && cp -r one other
+sed -i '2,$s/^line.yaml,/renamed,/' other/cells.csv
+try 0 report other
+expect "no label" grep -q '>renamed<' other/report/index.html
+echo 'coordinates: [' >other/systems/renamed.yaml
+try 2 report other
+says '^dalembert: other/systems/renamed.yaml:2:1: '
+empty
+
+# Both runs have a motion on the page, and too few rows for it: their last steps have more.
+case_is "runs of a study that are not whole"
+printf "coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\nstart: {x: 1}\nexact: {x: cos(t)}\n" >swing.yaml
+printf '%s\n' 'integrators: [rk4, gauss4]' 'step: 0.1' 'time: 20' 'samples: 2' 'starts: physical' \
+    'systems: [swing.yaml]' >pair.yaml
+try 0 study pair.yaml --no-page --output of-pair
+for run in swing.yaml_rk4_physical_0.1 swing.yaml_gauss4_physical_0.1; do
+    change=folder && not_whole 4 of-pair/runs/$run/checkpoint "cannot read 'other/runs/$run/checkpoint': Is a directory"
+    rm -r "$damaged" "other/runs/$run/trajectory.npy" && cp of-pair/runs/$run/checkpoint "$damaged"
+    try 2 report other
+    says "^dalembert: 'other/runs/$run' holds no run: there is no trajectory.npy$"
+    empty
+done
 
 # A fault of a picture is a fault of the command.
 case_is "a picture that fails"
@@ -129,8 +158,10 @@ for way in fails draws stops dies; do
     rm -rf run-$way
     try 0 run $motion --output run-$way
     for command in "report run-$way" "report one"; do
-        PATH=$PWD/$way:$PATH try 4 $command --svg
-        says "^dalembert: gnuplot $failure '.*\.gp'$"
+        for charts in "$DALEMBERT_UPLOT" /nonexistent; do
+            DALEMBERT_UPLOT=$charts PATH=$PWD/$way:$PATH try 4 $command --svg
+            says "^dalembert: gnuplot $failure '.*\.gp'$"
+        done
     done
 done
 

@@ -89,6 +89,13 @@ try 0 merge half other-half --output merged
 expect "a merge changes bytes" same_cells merged
 expect "a merge loses some" test "$(wc -c <merged/predictions/all)" -eq "$size"
 
+case_is "predictions of a study: a figure that cannot be written"
+cp -r ahead blocked
+mkdir -p blocked/report/predicted.gp
+try 4 report blocked
+says "^dalembert: cannot write 'blocked/report/predicted.gp': Is a directory$"
+empty
+
 case_is "predictions of a study: interrupted"
 if needs 6 "no compiler for signals at given places" raises; then
     sed 's/^\(integrators:\).*/\1 rk4/; s/^\(step:\).*/\1 0.05/; /^  - /{ /pendulum-cvt/!d }' ahead.yaml >single.yaml
