@@ -91,6 +91,28 @@ for k in 1 2; do try 0 $many --shard $k/2 --output part-$k; done
 limited 60 4 merge part-1 part-2 --output part-2 --threads 1 --no-page
 refused_room part-2/final.npy
 
+case_is "a first line that is longer than what is written at once"
+awk 'BEGIN { for (i = 1; i <= 50; i++) { names = names ", a_long_name_of_a_coordinate_" i }
+    print "coordinates: [" substr(names, 3) "]"; print "lagrangian: a_long_name_of_a_coordinate_1\047^2/2 + 0"
+    for (i = 2; i <= 50; i++) print "    + a_long_name_of_a_coordinate_" i "\047^2/2" }' >many.yaml
+limited 4 4 run many.yaml --integrator rk4 --step 0.5 --time 1 --output many.csv
+says "^dalembert: cannot write 'many.csv': File too large$"
+expect "it goes on" test "$(wc -l <err)" -eq 1
+
+case_is "a search on a full disk"
+printf "coordinates: [x]\nlagrangian: x'^2/2\ncontrols: [{x: 1}]\n" >cart.yaml
+# A checkpoint has some 50 kB, the inputs of 4000 steps more than 100.
+limited 160 4 steer cart.yaml --to x=1 --rest --effort controls --integrator gauss4 --step 0.00025 --time 1 \
+    --samples 1 --output cart
+says "^dalembert: cannot write 'cart/inputs.csv': File too large$"
+expect "it goes on" test "$(grep -c 'cannot write' err)" -eq 1
+# x'' = 4x^3 is infinite before t = 1.
+printf "coordinates: [x]\nlagrangian: x'^2/2 + x^4\nstart: {x: 1}\n" >falls.yaml
+limited 8 3 steer falls.yaml --to x=2 --rest --time 30 --step 0.1 --integrator gauss8 --output nowhere
+says "^dalembert: cannot write 'nowhere/best.csv': File too large$"
+expect "it goes on" test "$(grep -c 'cannot write' err)" -eq 1
+refute "results of a search that is not whole" test -e nowhere/steer.json
+
 # Each column that a page needs of a table.
 case_is "tables of an older version"
 printf 'coordinates: [x]\nlagrangian: (x'"'"'^2 - x^2)/2\nstart: {x'"'"': 1}\n' >swing.yaml

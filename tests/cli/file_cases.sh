@@ -31,6 +31,14 @@ try 2 new dangling
 expect "a link was followed" test ! -e nowhere
 try 4 new nowhere/system
 says "^dalembert: cannot write 'nowhere/system.yaml': No such file or directory$"
+if needs 4 "no /dev/full" test -c /dev/full; then
+    ln -s /dev/full full.yaml
+    for command in 'new full' 'show suslov --output full.yaml'; do
+        try 4 $command
+        says "^dalembert: cannot write 'full.yaml': No space left on device$"
+    done
+    counted
+fi
 try 2 show knife-egde
 says "^dalembert: unknown system 'knife-egde'; did you mean 'knife-edge'\?$"
 try 2 show blade.yaml
