@@ -135,7 +135,7 @@ fi
 outputs
 
 case_is "a socket is written"
-if needs 5 "no python3" there python3; then
+if needs 7 "no python3" there python3; then
     cat >listen.py <<'LIST'
 import socket, sys
 server = socket.socket(socket.AF_UNIX)
@@ -156,6 +156,10 @@ LIST
     expect "it is no socket any more" test -S socket
     try 4 generate knife-edge --integrator rk4 -o socket
     says "^dalembert: cannot write 'socket': Connection refused$"
+    long=$(printf '%0120d' 0)
+    mkdir "$long" && (cd "$long" && python3 -c "import socket; socket.socket(socket.AF_UNIX).bind('socket')")
+    try 2 generate knife-edge --integrator rk4 -o "$long/socket"
+    says "^dalembert: cannot write '$long/socket': File name too long$"
     counted
 fi
 
@@ -210,6 +214,12 @@ cd project || exit 1
 try 2 study line-study.yaml --output .
 says "^dalembert: '\.' is not empty"
 cd .. || exit 1
+# The directory has a path, some of its files have none.
+far=$(printf '%4068s' '' | sed 's,  ,./,g')far
+try 0 study line-study.yaml --output far
+try 2 study line-study.yaml --output "$far" --force
+says "^dalembert: cannot remove '$far/.*': File name too long$"
+expect "it goes on" test "$(wc -l <err)" -eq 1
 mkdir shard
 try 0 study line-study.yaml --shard 1/2 --output shard
 try 0 study line-study.yaml --shard 2/2 --output shard
