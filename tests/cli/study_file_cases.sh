@@ -345,6 +345,7 @@ bad 'integrators: rk4\nstep: {between: [0.1, 0.2]}\nseeds: 1\ntime: 1\nsystems: 
     'bad.yaml:2:7: step: it must not be random$'
 bad "\"a\\\\0b\": 1\n${common}systems: [line.yaml]\n" '^dalembert: bad\.yaml:1:1: a study: a NUL in the text$'
 bad "${common}systems: [{system: line.yaml, set: {k: [$(seq -s, 10001)]}}]\n" 'set: 10001 values, not 1\.\.10000$'
+bad "${common}displacement: few\nsystems: [line.yaml]\n" "displacement: 'few' is not a number$"
 bad "${common}displacement: -1\nsystems: [line.yaml]\n" 'displacement: -1 is not positive$'
 bad "${common}systems: [{label: a}]\n" '^dalembert: bad\.yaml:5:11: the system is missing$'
 bad "${common}systems: [{system: line.yaml, start: {x: {between: [0, 1], from: 1}}}]\n" \

@@ -264,6 +264,9 @@ says "^dalembert: --precision: 'dubble'"
 says "^dalembert: --solver: 'newtn'"
 says "unknown system 'chaplygin-sleig'; did you mean 'chaplygin-sleigh'\?"
 errors 6
+try 2 run line.yaml --integrator rk4 --step 0.1 --time 1 --samples=0
+says '^dalembert: --samples: 0 is not in 1\.\.'
+errors 1
 try 2 run plain.yaml --integrator rk5 --sampling cubic
 says "did you mean 'rk4'"
 says "^dalembert: --sampling: 'cubic'"
