@@ -43,7 +43,7 @@ fails_openly() {
 }
 
 fails_calls() { raises && shared_object fail_call && without_call 0 --version && [ ! -s err ]; }
-if needs 80 "no compiler for calls that fail" fails_calls; then
+if needs 81 "no compiler for calls that fail" fails_calls; then
     motion="line.yaml --integrator rk4 --step 0.1 --time 1"
     cat >ball.yaml <<'EOF'
 coordinates: [x, y]
@@ -98,6 +98,9 @@ EOF
     fails_openly run ball.yaml --integrator rk4 --step 0.1 --time 3 --output place
     fails_openly study short.yaml --output place --threads 1 --no-page
     fails_openly steer line.yaml --to x=1 --integrator gauss4 --step 0.1 --time 1 --output place
+    # Its forces leave no room for a controlled system, which is removed.
+    printf '%s\n' 'coordinates: [x]' "lagrangian: x'^2/2" 'controls: [{x: 1}]' 'forces: {x: 0.5}' >pushed.yaml
+    fails_openly steer pushed.yaml --to x=1 --rest --effort controls --integrator gauss4 --step 0.5 --time 1 --output place
     fails_openly volume $motion --output place
     sed 's/^time/rows: none\npredict: on\ntime/' short.yaml >bare.yaml
     echo 'expect: {line.yaml_k=1: {rk4: {state: done}}}' >>bare.yaml
