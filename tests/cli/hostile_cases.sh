@@ -126,6 +126,7 @@ expect "no label" grep -q '>renamed<' other/report/index.html
 echo 'coordinates: [' >other/systems/renamed.yaml
 try 2 report other
 says '^dalembert: other/systems/renamed.yaml:2:1: '
+expect "it goes on" test "$(wc -l <err)" -eq 1
 empty
 
 # Both runs have a motion on the page, and too few rows for it: their last steps have more.
