@@ -43,7 +43,7 @@ fails_openly() {
 }
 
 fails_calls() { raises && shared_object fail_call && without_call 0 --version && [ ! -s err ]; }
-if needs 81 "no compiler for calls that fail" fails_calls; then
+if needs 82 "no compiler for calls that fail" fails_calls; then
     motion="line.yaml --integrator rk4 --step 0.1 --time 1"
     cat >ball.yaml <<'EOF'
 coordinates: [x, y]
@@ -142,11 +142,15 @@ EOF
     fails_openly $few --output place --threads 1 --force --no-page
     fails_openly resume place --members 600 --threads 1 --no-page
     if sanitized; then
-        cannot 4 "sanitizers make calls of their own beside the page's"
+        cannot 5 "sanitizers make calls of their own beside the page's"
     else
         FAILING_CALLS=15
         prepare() { cp -R run place; }
         fails_openly report place
+        mkdir draws
+        printf '#!/bin/sh\necho "<svg></svg>" >"${1%%.gp}.svg"\n' >draws/gnuplot
+        chmod +x draws/gnuplot
+        PATH=$work/draws:$PATH fails_openly report place --svg
         prepare() { cp -R bounces place; }
         fails_openly report place
         prepare() { cp -R whole-study place; }

@@ -20,6 +20,7 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/types.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 static atomic_long calls;
@@ -78,6 +79,7 @@ CALL(int, mkdir, -1, (const char *path, mode_t mode), (path, mode))
 CALL(DIR *, opendir, NULL, (const char *path), (path))
 CALL(int, fseeko, -1, (FILE * file, off_t at, int from), (file, at, from))
 CALL(int, fflush, EOF, (FILE * file), (file))
+CALL(pid_t, fork, -1, (void), ())
 
 int open(const char *path, int flags, ...)
 {
@@ -103,6 +105,15 @@ int fclose(FILE *file)
     const int is_bad = fails(), result = REAL(fclose)(file);
     if (is_bad) errno = EIO;
     return is_bad ? EOF : result;
+}
+
+/* The process has ended all the same. */
+pid_t waitpid(pid_t process, int *state, int options)
+{
+    const int is_bad = fails();
+    const pid_t result = REAL(waitpid)(process, state, options);
+    if (is_bad) errno = EIO;
+    return is_bad ? -1 : result;
 }
 
 static ssize_t no_bytes(void *cookie, char *bytes, size_t n)
