@@ -145,3 +145,30 @@ cp -r a-study no-table
 printf 'label,met\nline\n' >no-table/expectations.csv
 try 2 report no-table
 says '^dalembert: no-table/expectations.csv:2: 1 columns, but the file has 2 heads$'
+
+if needs 34 "no python3" there python3; then
+    case_is "checkpoints that no run has written, with their check sums"
+    try 0 run line.yaml --integrator rk4 --step 0.001 --time 1 --samples 10 --output ten
+    while read -r part word value reason; do
+        rm -rf changed
+        cp -r ten changed
+        python3 "$here/change_checkpoint.py" changed/checkpoint $part $word $value
+        label="the $part, word $word: $value"
+        try 2 resume changed
+        says "^dalembert: changed/checkpoint: the checkpoint is damaged: $reason$"
+        expect "another message" [ "$(wc -l <err)" -eq 1 ]
+    done <<'EOF'
+header 7 -1.0 its time is wrong
+header 2 -1 its size is wrong
+header 8 1000000000 its size is wrong
+header 9 2 its size is wrong
+statistics 0 -1 its statistics cannot be
+statistics 1 3 its statistics cannot be
+statistics 3 1 its statistics cannot be
+statistics 4 2 its statistics cannot be
+record 0 -1.0 the record of its steps cannot be
+record 0 1.5 the record of its steps cannot be
+record 1 0.5 the record of its steps cannot be
+EOF
+    counted
+fi
