@@ -124,8 +124,10 @@ fi
 case_is "ends that a run does not have"
 rm -rf short
 try 0 run $sleigh --integrator rk4 --time 10 --output short
-try 0 run $sleigh --integrator rk4 --time 10 --sampling log --output log
+try 0 run $sleigh --integrator rk4 --time 10 --samples 100 --sampling log --output log
 cp -r short kept
+cp -r log many
+sed 's/"samples": 100,/"samples": 100000001,/' log/manifest.json >many/manifest.json
 table <<'END'
 2 | resume short --time 10.05 | says ^dalembert: --time: the rows, 0\.1 apart, go on to t = 10 or t = 10\.1, not to t = 10\.05$
 2 | resume short --time 5     | says ^dalembert: --time: 'short' goes to t = 10 already, and t = 5 is not later$
@@ -137,6 +139,8 @@ table <<'END'
 2 | resume short --steps 0    | says ^dalembert: --steps: 0 is not in 1\.\.
 2 | resume short --time 20 --steps 700 | says ^dalembert: --steps excludes --time$
 2 | resume log --time 20      | says ^dalembert: --time: the rows of --sampling log have no distance at which they could go on$
+2 | resume short --time 12.0000000001 | says ^dalembert: --time: row 1 of a run to 12\.0000000001 is at t = 0\.1000000000008[0-9]*, and of this one at 0\.1[0-9]*: a multiple of the time 10 has the same rows$
+2 | resume many --time 20     | says ^dalembert: --samples: 100000001 are too many for --sampling log$
 2 | resume nothing --time 20  | says ^dalembert: there is no directory 'nothing'$
 END
 expect "it was changed" diff -r short kept
