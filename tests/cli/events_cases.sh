@@ -1,6 +1,6 @@
 # Events: impacts, stops, logs, and runs with them that are interrupted.
 
-needs 404 "no compiler for signals at given places" raises || return 0
+needs 411 "no compiler for signals at given places" raises || return 0
 examples=$here/../../examples
 # A ball above a floor; the times of its bounces are t1 (1 + 2 c (1 - c^k)/(1 - c)), t1 = sqrt(2/g).
 cat >ball.yaml <<'END'
@@ -37,6 +37,15 @@ for file in - both.csv; do
 done
 try 4 run $ball --time 3 --events none/log.csv
 says 'none/log.csv'
+
+case_is "a log that is full"
+if needs 4 "no /dev/full" test -c /dev/full; then
+    try 4 run $ball --set c=1 --time 1000 --samples 1000 --output rows.csv --events /dev/full
+    says "^dalembert: cannot write '/dev/full': "
+    expect "another message" [ "$(wc -l <err)" -eq 1 ]
+    expect "the run goes on" [ "$(wc -l <rows.csv)" -lt 1000 ]
+    counted
+fi
 
 case_is "events that a step may hide"
 printf "coordinates: [x]\nlagrangian: x'^2/2\nstart: {x': 1}\nevents: [{when: cos(1e6*x), direction: up}]\n" >fast.yaml
@@ -132,6 +141,10 @@ cp -r endless lost
 head -1 endless/events.csv >lost/events.csv
 try 2 resume lost
 says "'lost/events.csv' has fewer than the [0-9]* events of the run"
+rm lost/events.csv
+try 4 resume lost
+says "^dalembert: cannot read 'lost/events.csv': No such file or directory$"
+expect "another message" [ "$(wc -l <err)" -eq 1 ]
 
 case_is "compiled steps have the same bits"
 try 0 run $ball --time 3 --samples 7 --native off --output interpreted.csv
