@@ -81,9 +81,10 @@ static void begin_record(run_recorder *r)
         record_allocate(&r->results.record);
 }
 
-static int allocate_values(run_recorder *r)
+/* The columns were checked when the simulation was made. */
+static void allocate_values(run_recorder *r)
 {
-    const int status = columns_make(&r->columns, r->simulation);
+    (void)columns_make(&r->columns, r->simulation);
     r->dimension = dal_run_dimension(r->simulation->run);
     const size_t count = (size_t)r->columns.values;
     r->values = cli_calloc(count, sizeof *r->values);
@@ -91,7 +92,6 @@ static int allocate_values(run_recorder *r)
     run_results_begin(&r->results, r->simulation->run);
     r->results.names = (const char *const *)r->columns.name + 1 + r->dimension;
     begin_record(r);
-    return status;
 }
 
 static int open_writer(run_recorder *r, const char *output)
@@ -131,8 +131,8 @@ int recorder_open(run_recorder *r, const run_simulation *simulation, run_directo
     *r = (run_recorder){.simulation = simulation, .dir = dir, .stop = is_interrupted};
     r->no_line = !isatty(STDERR_FILENO);
     r->shows_rows = !dir && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO);
-    int status = allocate_values(r);
-    if (status == CLI_DONE) status = open_writer(r, output);
+    allocate_values(r);
+    int status = open_writer(r, output);
     if (status == CLI_DONE && dir && simulation->system->events > 0)
         status = event_log_open(&r->events, simulation, dir->events);
     if (status != CLI_DONE || !recorder_is_finished(r)) return status;
