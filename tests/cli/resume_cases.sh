@@ -1,6 +1,6 @@
 # A run in a directory: described, interrupted, killed, resumed.
 
-needs 198 "no compiler for signals at given places" raises || return 0
+needs 214 "no compiler for signals at given places" raises || return 0
 # more rows than steps: each checkpoint has rows that the one before it lacks
 long="chaplygin-sleigh --integrator gauss8+project --step 0.001 --time 20 --samples 20011
       --set omega=1.5 --start pi_phi=1e-8"
@@ -133,6 +133,14 @@ says "cannot write 'full/(trajectory.npy|checkpoint.new)': File too large"
 try 0 resume full
 expect "not the rows of a run never interrupted" cmp full/trajectory.npy whole/trajectory.npy
 
+case_is "interrupted while the disk is full"
+cut_off 130 15 9 run line.yaml --integrator rk4 --step 0.01 --time 100 --samples 10 --checkpoint 0 --output halted
+expected=4
+(trap '' XFSZ; ulimit -f 8; signalled 15 1 resume halted --checkpoint 1e6)
+ended $? resume halted
+says "^dalembert: cannot write 'halted/checkpoint\.new': File too large$"
+refute "it is called interrupted" grep -q interrupted err
+
 case_is "two processes on one directory"
 "$program" run $long --time 1e9 --samples 1e9 --checkpoint 0 --output busy 2>err &
 other=$!
@@ -179,11 +187,24 @@ says "damaged/manifest.json:[0-9]+:[0-9]+: unknown option 'stepp' of a run"
 sed '/"system": "chaplygin-sleigh"/d' whole/manifest.json >damaged/manifest.json
 try 2 resume damaged
 says '^dalembert: damaged/manifest.json:3:12: the system is missing$'
+present=$("$program" --version | sed 's/.* //')
 for text in '' '{' '[1]' '{"input": 1}' '{"dalembert": [1], "input": {}}' '{"input": {}}' \
     '{"input": {"system": ["x"]}}' '{"input": {"set": "x"}}' '{"input": {"set": {"x": []}}}'; do
     echo "$text" >damaged/manifest.json
     try 2 resume damaged
 done
+while read -r input reason; do
+    echo '{"dalembert": "'"$present"'", "input": {"system": "line.yaml", '"$input"'}}' >damaged/manifest.json
+    try 2 resume damaged
+    says "^dalembert: (damaged/manifest.json:1:[0-9]+: )?$reason$"
+done <<'EOF'
+"set":"x" set: names and values are required
+"set":{"k":[]} k: a single value is required
+"set":{"k":"z"} k: 'z' is not a number
+"start":1 start: names and values are required
+"start":{"x":[]} x: a single value is required
+"start":{"x":"z"} x: 'z' is not a number
+EOF
 rm damaged/manifest.json
 try 2 resume damaged
 says "'damaged' holds no run: there is no damaged/manifest.json"
@@ -218,7 +239,6 @@ fi
 
 # A directory of each earlier version is refused and left as it is, and so are statistics of a layout
 # that this version does not read.
-present=$("$program" --version | sed 's/.* //')
 for kept in "$here"/data/run-*; do
     case_is "a directory of an earlier version, $(basename "$kept")"
     version=$(sed -n 's/^  "dalembert": "\(.*\)",$/\1/p' "$kept/manifest.json")
