@@ -156,6 +156,8 @@ try 2 study gauges.yaml --output of-gauges
 says "'mu' is not e or mu_e, which a gauge gives"
 table <<'END2'
 2 | run chaplygin-sleigh --gauge "mu_e = 1, e = y1" | says --gauge:1:15: gauge e: coordinate 'y1' may not stand here
+2 | run chaplygin-sleigh --gauge "e" --observe phi^2 | says ^dalembert: --gauge:1:1: a gauge is 'e = 1, mu_e = 0.1.cos.t.', of these two or one$
+2 | run chaplygin-sleigh --set m=1e999 | says ^dalembert: m=1e999: '1e999' is too large$
 2 | run chaplygin-sleigh --gauge "e" | says --gauge:1:1: a gauge is 'e = 1, mu_e = 0.1.cos.t.', of these two or one
 END2
 

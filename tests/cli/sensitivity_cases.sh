@@ -67,3 +67,12 @@ table <<'END'
 2 | run fall.yaml --integrator rk4 --step 0.1 --time 1 --sensitivities pi_x --gauge mu_e=0.1*x | says mu_e of the gauge is not of t alone
 2 | run chaplygin-sleigh --integrator rk4+project --step 0.1 --time 1 --sensitivities m | says no exact tangent
 END
+
+# x = 0, and the derivative grows by 1 + 1 + 1/2 + 1/6 + 1/24 a step: 2.708^711 is 10^307.7 and the sum in the next
+# step is 6 times 2.708^712.
+case_is "sensitivities: one that becomes too large"
+printf "coordinates: [x]\nparameters: {k: 0}\naccelerations: {x: x + k}\n" >still.yaml
+try 0 run still.yaml --integrator rk4 --step 1 --time 800 --samples 800
+try 3 run still.yaml --integrator rk4 --step 1 --time 800 --samples 800 --sensitivities k
+says '^dalembert: still.yaml: a value is not finite at t = 71[1-4]$'
+expect "not the rows before" [ "$(wc -l <out)" -ge 711 -a "$(wc -l <out)" -le 716 ]
