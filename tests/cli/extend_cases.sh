@@ -140,10 +140,12 @@ table <<'END'
 2 | resume short --time 20 --steps 700 | says ^dalembert: --steps excludes --time$
 2 | resume log --time 20      | says ^dalembert: --time: the rows of --sampling log have no distance at which they could go on$
 2 | resume short --time 12.0000000001 | says ^dalembert: --time: row 1 of a run to 12\.0000000001 is at t = 0\.1000000000008[0-9]*, and of this one at 0\.1[0-9]*: a multiple of the time 10 has the same rows$
-2 | resume many --time 20     | says ^dalembert: --samples: 100000001 are too many for --sampling log$
 2 | resume nothing --time 20  | says ^dalembert: there is no directory 'nothing'$
 END
 expect "it was changed" diff -r short kept
+try 2 resume many --time 20
+says '^dalembert: --samples: 100000001 are too many for --sampling log$'
+expect "another message" [ "$(wc -l <err)" -eq 1 ]
 
 case_is "runs that have no continuation"
 sed 's/restitution: 0.9/stop: true/' ball.yaml >stop.yaml

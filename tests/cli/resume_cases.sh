@@ -1,6 +1,6 @@
 # A run in a directory: described, interrupted, killed, resumed.
 
-needs 214 "no compiler for signals at given places" raises || return 0
+needs 220 "no compiler for signals at given places" raises || return 0
 # more rows than steps: each checkpoint has rows that the one before it lacks
 long="chaplygin-sleigh --integrator gauss8+project --step 0.001 --time 20 --samples 20011
       --set omega=1.5 --start pi_phi=1e-8"
@@ -197,6 +197,7 @@ while read -r input reason; do
     echo '{"dalembert": "'"$present"'", "input": {"system": "line.yaml", '"$input"'}}' >damaged/manifest.json
     try 2 resume damaged
     says "^dalembert: (damaged/manifest.json:1:[0-9]+: )?$reason$"
+    expect "another message" [ "$(wc -l <err)" -eq 1 ]
 done <<'EOF'
 "set":"x" set: names and values are required
 "set":{"k":[]} k: a single value is required
