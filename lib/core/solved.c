@@ -113,7 +113,6 @@ static int find_pivot(const newton *k, int j)
     const int m = k->c.rows, width = k->width;
     double size = 0.0;
     int pivot = j;
-    if (j == m) return -1;
     for (int a = 0; a < m; a++) size = fmax(size, fabs(k->matrix[a * width + j]));
     for (int a = j; a < m; a++)
         if (fabs(k->matrix[a * width + j]) > fabs(k->matrix[pivot * width + j])) pivot = a;
