@@ -280,6 +280,9 @@ static void test_discrete_refused(void)
     CU_ASSERT_EQUAL(discrete(free_particle, "gauss4", 0.2, &curve, &out, &error),
                     DAL_STATUS_ARGUMENT);
     CU_ASSERT_STRING_EQUAL(error.message, "row 2: t = 0.1 is not 1 steps of 0.2 after 0");
+    x[5] = NAN;
+    CU_ASSERT_EQUAL(discrete(free_particle, "gauss4", 0.1, &curve, &out, &error),
+                    DAL_STATUS_NOT_FINITE);
     CU_ASSERT_EQUAL(discrete("chaplygin-sleigh-vakonomic", "gauss4", 0.1, &curve, &out, &error),
                     DAL_STATUS_UNSUPPORTED);
     curve.v = NULL;

@@ -46,6 +46,8 @@ static void test_action_closed_form(void)
                     DAL_STATUS_ARGUMENT);
     CU_ASSERT_EQUAL(dal_evaluator_measure_action(evaluator, 0.0, 0.0, NODES, x, e, &action),
                     DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_evaluator_measure_action(evaluator, 0.0, h, NODES, x, INFINITY, &action),
+                    DAL_STATUS_NOT_FINITE);
     dal_evaluator_free(evaluator);
 }
 

@@ -196,6 +196,21 @@ static void test_project_velocity(void)
     dal_evaluator_free(evaluator);
 }
 
+/* The nearest point of a circle; its center has none, and comes back as it was. */
+static void test_project_position(void)
+{
+    dal_evaluator *evaluator = fixture_evaluator(fixture_system(
+        "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\nholonomic: [x^2 + y^2 - 1]\n"
+        "start: {x: 1}\n"));
+    const double v[] = {0.0, 0.0};
+    double q[] = {3.0, 4.0}, center[] = {0.0, 0.0};
+    CU_ASSERT_EQUAL(dal_evaluator_project_position(evaluator, 0.0, q, v), DAL_STATUS_OK);
+    CU_ASSERT(fabs(q[0] - 0.6) < 1e-15 && fabs(q[1] - 0.8) < 1e-15);
+    CU_ASSERT_EQUAL(dal_evaluator_project_position(evaluator, 0.0, center, v), DAL_STATUS_SINGULAR);
+    CU_ASSERT(center[0] == 0.0 && center[1] == 0.0);
+    dal_evaluator_free(evaluator);
+}
+
 /* x'^2 + y'^2 + 1 has no zero: v must come back as it was. */
 static void test_project_velocity_nothing(void)
 {
@@ -496,6 +511,7 @@ void suite_measure(void)
     CU_add_test(suite, "derivatives far away and of small lengths", test_derivatives_anywhere);
     CU_add_test(suite, "rank of G", test_rank);
     CU_add_test(suite, "velocities projected to D = 0", test_project_velocity);
+    CU_add_test(suite, "positions projected to a circle", test_project_position);
     CU_add_test(suite, "no projection to a D without zero", test_project_velocity_nothing);
     CU_add_test(suite, "no projection where the gradients of D are 0",
                 test_project_velocity_singular);
