@@ -196,6 +196,23 @@ static void test_project_velocity(void)
     dal_evaluator_free(evaluator);
 }
 
+static dal_status no_scales(const dal_system *system, const dal_point *at, double *memory,
+                            double *out)
+{
+    (void)system, (void)at, (void)memory, (void)out;
+    return DAL_STATUS_IO;
+}
+
+static void test_scales_fail(void)
+{
+    dal_system system = *fixture_system(fixture_full);
+    double x[8] = {0.0}, out[8];
+    system.scales = no_scales;
+    dal_evaluator *evaluator = fixture_evaluator(&system);
+    CU_ASSERT_EQUAL(dal_evaluator_scales(evaluator, 0.0, x, x + 4, out), DAL_STATUS_IO);
+    dal_evaluator_free(evaluator);
+}
+
 /* The nearest point of a circle; its center has none, and comes back as it was. */
 static void test_project_position(void)
 {
@@ -511,6 +528,7 @@ void suite_measure(void)
     CU_add_test(suite, "derivatives far away and of small lengths", test_derivatives_anywhere);
     CU_add_test(suite, "rank of G", test_rank);
     CU_add_test(suite, "velocities projected to D = 0", test_project_velocity);
+    CU_add_test(suite, "scales that fail", test_scales_fail);
     CU_add_test(suite, "positions projected to a circle", test_project_position);
     CU_add_test(suite, "no projection to a D without zero", test_project_velocity_nothing);
     CU_add_test(suite, "no projection where the gradients of D are 0",
