@@ -66,19 +66,19 @@ head -n $((least + 1)) cut/section.csv >short.csv
 head -n $((least + 1)) whole.csv >wanted.csv
 expect "not the rows of a section never interrupted" cmp short.csv wanted.csv
 
+# interrupts COMMAND OPTION: on an endless motion, by rk4, which the option names.
+interrupts() {
+    "$program" "$1" ./swing.yaml "$2" rk4 --time 1e12 --step 0.01 >out 2>err &
+    pid=$!
+    expect "no handlers" ready $pid
+    ends_by INT 130 $pid
+}
 case_is "order is interrupted"
-"$program" order ./swing.yaml --integrators rk4 --time 1e12 --step 0.01 >out 2>err &
-pid=$!
-expect "no handlers" ready $pid
-ends_by INT 130 $pid
-says '^dalembert: interrupted$'
-empty
+interrupts order --integrators
+alone '^dalembert: interrupted$'
 
 case_is "predict is interrupted: its curves are printed"
-"$program" predict ./swing.yaml --integrator rk4 --time 1e12 --step 0.01 >out 2>err &
-pid=$!
-expect "no handlers" ready $pid
-ends_by INT 130 $pid
+interrupts predict --integrator
 says '^dalembert: interrupted; the curves so far are kept$'
 expect "a second message" test "$(wc -l <err)" -eq 1
 prints '^\./swing\.yaml: changes predicted from t = 0 to '
