@@ -75,6 +75,10 @@ static void test_refusals(void)
     other.parameters = &(dal_setting){"nothing", 1.0};
     other.parameter_count = 1;
     CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_STATUS_NAME);
+    other = spec;
+    other.start_time = NAN;
+    CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_STRING_EQUAL(error.message, "the time of the start must be finite; it is nan");
 }
 
 /* Every integrator of the library must be found again in the texts it carries. */

@@ -496,6 +496,19 @@ static void latex_texts(void)
     dal_model_free(model);
 }
 
+/* A force that is 0 has no row; those that follow have. */
+static void latex_zero_force(void)
+{
+    dal_model *model =
+        model_of("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\nforces: {y: -y'}\n");
+    char *text = NULL;
+    CU_ASSERT_EQUAL_FATAL(dal_model_latex(model, &text, NULL), DAL_STATUS_OK);
+    CU_ASSERT_PTR_NULL(strstr(text, "Q_{x}"));
+    CU_ASSERT_PTR_NOT_NULL(strstr(text, "Q_{y} &= -\\dot{y}"));
+    free(text);
+    dal_model_free(model);
+}
+
 /* K of each effort, and pi.K pi of H, in both forms; the transpose is U+1D5B3. */
 static void latex_efforts(void)
 {
@@ -591,6 +604,7 @@ void suite_latex(void)
     CU_add_test(suite, "holonomic constraints", latex_holonomic);
     CU_add_test(suite, "each name once", latex_names);
     CU_add_test(suite, "texts written by hand", latex_texts);
+    CU_add_test(suite, "a force that is 0", latex_zero_force);
     CU_add_test(suite, "efforts", latex_efforts);
     CU_add_test(suite, "long formulas, no lift, no memory", latex_limits);
     CU_add_test(suite, "deep formulas as MathML", latex_depth);

@@ -500,8 +500,8 @@ int explain_run(explain_settings *s)
     dal_error_budget *e = NULL;
     dal_error error = {0};
     int status = analysis_check_output(s->output, s->json);
-    if (status == CLI_DONE) status = screen_check_json(s->format, s->json);
-    if (status == CLI_DONE) status = screen_check_details(s->format, s->details);
+    if (status == CLI_DONE) status = screen_check_format(s->format, "--json", s->json);
+    if (status == CLI_DONE) status = screen_check_format(s->format, "--details", s->details);
     if (status == CLI_DONE) status = request_check_forward(&s->simulation.request);
     if (status == CLI_DONE) status = simulation_create(&s->simulation);
     if (status == CLI_DONE) status = simulation_make_spec(&s->simulation, &spec);

@@ -242,8 +242,10 @@ static int measure_means(lyapunov_settings *settings)
 {
     tangent_study s = {.set = settings, .simulation = &settings->simulation};
     int status = analysis_check_output(settings->output, settings->json);
-    if (status == CLI_DONE) status = screen_check_json(settings->format, settings->json);
-    if (status == CLI_DONE) status = screen_check_details(settings->format, settings->details);
+    if (status == CLI_DONE)
+        status = screen_check_format(settings->format, "--json", settings->json);
+    if (status == CLI_DONE)
+        status = screen_check_format(settings->format, "--details", settings->details);
     if (status == CLI_DONE && !settings->force) status = analysis_check_directory(settings->output);
     if (status == CLI_DONE) status = create_spectrum(&s);
     if (status == CLI_DONE) {

@@ -511,8 +511,9 @@ static int write_orders(const order_study *s, const char *path)
 static int measure(order_study *s)
 {
     int status = analysis_check_output(s->set->output, s->set->json);
-    if (status == CLI_DONE) status = screen_check_json(s->set->format, s->set->json);
-    if (status == CLI_DONE) status = screen_check_details(s->set->format, s->set->details);
+    if (status == CLI_DONE) status = screen_check_format(s->set->format, "--json", s->set->json);
+    if (status == CLI_DONE)
+        status = screen_check_format(s->set->format, "--details", s->set->details);
     if (status == CLI_DONE && !s->set->force) status = analysis_check_directory(s->set->output);
     if (status == CLI_DONE) status = list_steps(s);
     if (status == CLI_DONE)

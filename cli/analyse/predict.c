@@ -337,8 +337,10 @@ int predict_run(predict_settings *settings)
     run_simulation *s = &settings->simulation;
     predictions p = {.set = settings};
     int status = analysis_check_output(settings->output, settings->json);
-    if (status == CLI_DONE) status = screen_check_json(settings->format, settings->json);
-    if (status == CLI_DONE) status = screen_check_details(settings->format, settings->details);
+    if (status == CLI_DONE)
+        status = screen_check_format(settings->format, "--json", settings->json);
+    if (status == CLI_DONE)
+        status = screen_check_format(settings->format, "--details", settings->details);
     if (status == CLI_DONE) status = simulation_complete(s, &p.spec);
     if (status != CLI_DONE) return status;
     p.spec.options.space = is_on_motion(s) ? DAL_PHYSICAL : DAL_LIFTED;

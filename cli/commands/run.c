@@ -14,7 +14,7 @@ static int check_format(const run_settings *s)
     const char *output = s->text[RUN_output];
     if (s->format != SCREEN_TEXT && output && strcmp(output, "-") == 0)
         return cli_fail(CLI_USAGE, "--format: standard output has the rows");
-    return screen_check_details(s->format, s->details);
+    return screen_check_format(s->format, "--details", s->details);
 }
 
 /* Which invariants a run observes. */

@@ -90,7 +90,7 @@ int steer_run(steer_settings *settings)
 {
     run_simulation *s = &settings->simulation;
     dal_steering *steering = NULL;
-    int status = screen_check_json(settings->format, settings->json);
+    int status = screen_check_format(settings->format, "--json", settings->json);
     if (status == CLI_DONE && settings->output && !settings->force)
         status = run_check_directory(settings->output);
     if (status == CLI_DONE && settings->aim)

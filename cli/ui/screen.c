@@ -32,16 +32,10 @@ bool screen_is_in_colour(FILE *to)
            !(terminal && strcmp(terminal, "dumb") == 0);
 }
 
-int screen_check_json(screen_format format, bool has_json)
+int screen_check_format(screen_format format, const char *option, bool is_given)
 {
-    if (format == SCREEN_TEXT || !has_json) return CLI_DONE;
-    return cli_fail(CLI_USAGE, "--format excludes --json");
-}
-
-int screen_check_details(screen_format format, bool has_details)
-{
-    if (format == SCREEN_TEXT || !has_details) return CLI_DONE;
-    return cli_fail(CLI_USAGE, "--format excludes --details");
+    if (format == SCREEN_TEXT || !is_given) return CLI_DONE;
+    return cli_fail(CLI_USAGE, "--format excludes %s", option);
 }
 
 bool screen_is_wanted(screen_format format, bool has_other_form)

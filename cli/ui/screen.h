@@ -24,9 +24,9 @@ bool screen_is_in_colour(FILE *to);
             CLI_FLAG(settings, details)                                                            \
     }
 
-/* Return CLI_DONE, or print that a format excludes --json, or --details, and return CLI_USAGE. */
-int screen_check_json(screen_format format, bool has_json);
-int screen_check_details(screen_format format, bool has_details);
+/* Returns CLI_DONE, or prints that a format excludes an option that is given ("--json"), and
+ * returns CLI_USAGE. */
+int screen_check_format(screen_format format, const char *option, bool is_given);
 /* Whether results are printed as a screen, or its table, where no option chooses another form. */
 bool screen_is_wanted(screen_format format, bool has_other_form);
 
