@@ -414,14 +414,15 @@ int json_read(document *doc, const char *path, const char *place)
     return status;
 }
 
-/* A file that may be absent.  The document is to be deleted in any case. */
-static int parse_file(document *doc, const char *path, const char *place, bool *is_parsed)
+/* A file that may be absent, or hold no object, which is not said.  The document is to be deleted in
+ * any case. */
+static int parse_file(document *doc, const char *path, bool *is_parsed)
 {
     struct stat info;
     *is_parsed = false;
     if (stat(path, &info) != 0) return CLI_DONE;
     if (S_ISDIR(info.st_mode)) return cli_fail(CLI_USAGE, "'%s' is a directory", path);
-    const int status = json_read(doc, path, place);
+    const int status = json_read(doc, path, NULL);
     *is_parsed = status == CLI_DONE;
     return status == CLI_IO ? CLI_IO : CLI_DONE;
 }
@@ -444,7 +445,7 @@ int json_file_text(const char *path, const char *name, char **text)
 {
     document doc = {0};
     bool is_parsed;
-    const int status = parse_file(&doc, path, path, &is_parsed);
+    const int status = parse_file(&doc, path, &is_parsed);
     const char *value = is_parsed ? json_text(&doc, name) : NULL;
     *text = value ? cli_strdup(value) : NULL;
     yaml_document_delete(&doc.yaml);
@@ -454,7 +455,7 @@ int json_file_text(const char *path, const char *name, char **text)
 int json_file_find(const char *path, const char *name, bool *is_there)
 {
     document doc = {0};
-    const int status = parse_file(&doc, path, NULL, is_there);
+    const int status = parse_file(&doc, path, is_there);
     if (*is_there)
         *is_there = document_value(&doc, yaml_document_get_root_node(&doc.yaml), name) != NULL;
     yaml_document_delete(&doc.yaml);

@@ -76,8 +76,8 @@ const char *json_scalar(const document *doc, const yaml_node_t *object, const ch
 char *json_source(const char *bytes, const yaml_node_t *value);
 /* A text of the object; NULL where it is not there, or after a message where it is no text. */
 const char *json_text(const document *doc, const char *name);
-/* A text of the object in a file, allocated; NULL where the file or the text is not there, or after
- * a message where the file holds no object.  A file that cannot be read is CLI_IO. */
+/* A text of the object in a file, allocated; NULL where the file or the text is not there, or the
+ * file holds no object.  A file that cannot be read is CLI_IO. */
 int json_file_text(const char *path, const char *name, char **text);
 /* Whether the object in a file has that member; no message where the file holds no object. */
 int json_file_find(const char *path, const char *name, bool *is_there);

@@ -202,6 +202,11 @@ rm dalembert-study/manifest.json
 mkdir dalembert-study/manifest.json
 table <<'END'
 2 | study small.yaml | alone ^dalembert: 'dalembert-study/manifest.json' is a directory$
+END
+rmdir dalembert-study/manifest.json
+echo '{' >dalembert-study/manifest.json
+table <<'END'
+2 | study small.yaml | alone ^dalembert: 'dalembert-study/study.yaml' exists already
 case: output that cannot be written
 4 | study small.yaml --output line.yaml | says line.yaml
 END
