@@ -112,6 +112,6 @@ int steer_run(steer_settings *settings)
                  steering->count > 0 ? "the motions so far, or the nearest one, are printed"
                                      : "there is no motion yet");
     dal_steer_free(steering);
-    if (status == CLI_DONE) status = written;
+    if (written != CLI_DONE) status = written;
     return printed == CLI_DONE ? status : printed;
 }

@@ -102,7 +102,7 @@ says "^dalembert: cannot write 'cart/inputs.csv': File too large$"
 expect "it goes on" test "$(grep -c 'cannot write' err)" -eq 1
 # x'' = 4x^3 is infinite before t = 1.
 printf "coordinates: [x]\nlagrangian: x'^2/2 + x^4\nstart: {x: 1}\n" >falls.yaml
-limited 8 3 steer falls.yaml --to x=2 --rest --time 30 --step 0.1 --integrator gauss8 --output nowhere
+limited 8 4 steer falls.yaml --to x=2 --rest --time 30 --step 0.1 --integrator gauss8 --output nowhere
 says "^dalembert: cannot write 'nowhere/best.csv': File too large$"
 expect "it goes on" test "$(grep -c 'cannot write' err)" -eq 1
 refute "results of a search that is not whole" test -e nowhere/steer.json
