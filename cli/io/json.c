@@ -414,8 +414,8 @@ int json_read(document *doc, const char *path, const char *place)
     return status;
 }
 
-/* A file that may be absent, or hold no object, which is not said.  The document is to be deleted in
- * any case. */
+/* A file that may be absent, or hold no object, without a message.  The document is to be deleted
+ * in any case. */
 static int parse_file(document *doc, const char *path, bool *is_parsed)
 {
     struct stat info;
