@@ -14,11 +14,12 @@
 #
 # Each is built below BUILD/mutants by JOBS processes, at -O1 and with few variants, since a source of
 # several widths must be changed in all of them; one is for AVX2, so that code for it runs as well.
-# The suites of the module (suites.txt), in quick runs and then whole, and the parts of the command line run one
-# by one until one fails, for a file in cli/ only these.  Those come first that should notice a fault for the least
-# processor time: by their own, over how often they noticed one in the folder of the file; both are
-# kept for later calls.  A test is left out whose run with the sources themselves, which gcov counts,
-# does not enter the function of the line.  What fails must pass with the sources themselves.  A process that takes
+# The tests that execute the line with the sources themselves, which gcov counts, run one by one until
+# one fails: suites in quick runs and whole, and parts of the command line, for a file in cli/ only
+# these.  Those come first that should notice a fault for the least processor time: by their own, over
+# how often they noticed one in the folder of the file; both are kept for later calls.  Where the
+# line itself is not counted, as in a statement of many lines, its function is.
+# What fails must pass with the sources themselves.  A process that takes
 # LIMIT times the longest processor time of its test that passed, and ten seconds, is ended, and a
 # command of the command line after PATIENCE seconds: such a mutant counts as noticed, as one that
 # crashes does.
@@ -75,37 +76,22 @@ build() {
 build_counted() {
     build BUILD=counted CFLAGS="$flags --coverage" counted/tests/suite counted/dalembert
 }
-# tests_of FILE: the tests of a file, "suite NAME", "whole NAME" and "cli PART", in the order of suites.txt.
+# tests_of FILE: what may notice a fault in it, "suite NAME" in a quick run, "whole NAME" and "cli PART".
 tests_of() {
-    awk -v file="$1" '
-        function add(kind, name) { if (!seen[kind, name]++) print kind, name }
-        FILENAME == ARGV[1] { known[$1]; next }
-        /^#/ || NF == 0 { next }
-        $1 == "quick" { for (i = 2; i <= NF; i++) quick[++quicks] = $i; next }
-        $1 == "broad" { for (i = 2; i <= NF; i++) broad[++broads] = $i; next }
-        index(file, $1) == 1 && length($1) >= best { best = length($1); line = $0 }
-        END {
-            n = split(line, word, " ")
-            kind = "suite"
-            for (i = 2; i <= n; i++)
-                if (word[i] == "cli") kind = "cli"
-                else if (kind == "cli") add(kind, word[i])
-                else if (word[i] in known) {
-                    add(kind, word[i])
-                    add("whole", word[i])
-                }
-            if (file ~ /^cli[/]/) exit
-            for (i = 1; i <= quicks; i++) if (quick[i] in known) add("suite", quick[i])
-            for (i = 1; i <= broads; i++) add("cli", broad[i])
-        }' "$place/suites" "$here/suites.txt"
+    case $1 in cli/*) ;; *) awk '{ print "suite", $1; print "whole", $1 }' "$place/suites" ;; esac
+    for part in tests/cli/*_cases.sh; do
+        part=${part##*/}
+        echo "cli ${part%_cases.sh}"
+    done
 }
 # cheapest_first FILE: the same by what a noticed fault should cost.  A line of the history is FOLDER, the test,
 # its processor time, "passed" or "noticed".
 cheapest_first() {
     tests_of "$1" | awk -v folder="$(dirname "$1")" '
+        BEGIN { usual["suite"] = 1; usual["whole"] = 3; usual["cli"] = 5 }
         FILENAME == "-" {
             test = $1 " " $2
-            cost = 0.05 + (test in time ? time[test] : $1 == "suite" ? 1 : 5) + 0.001 * ++count
+            cost = 0.05 + (test in time ? time[test] : usual[$1]) + 0.001 * ++count
             print cost * (tried[test] + 2) / (noticed[test] + 1), test
             next
         }
@@ -156,11 +142,11 @@ seconds_of() {
 }
 # intact_of KIND: the binary of the sources themselves.
 intact_of() { case $1 in cli) echo "$place/program" ;; *) echo "$place/suite" ;; esac; }
-# passes FILE FUNCTION: whether all tests of a file pass that enter the function; names the test that does not.
+# passes FILE LINE: whether all tests pass that execute the line; names the test that does not.
 passes() {
     cheapest_first "$1" >"$place/tests"
     while read -r kind name <&4; do
-        reaches "$kind" "$name" "$1" "$2" || continue
+        executes "$kind" "$name" "$1" "$2" || continue
         noticed="$kind $name"
         binary=build/tests/suite
         if [ "$kind" = cli ]; then
@@ -177,10 +163,10 @@ passes() {
         record "$(dirname "$1")" "$kind" "$name" passed >/dev/null
     done 4<"$place/tests"
 }
-# reaches KIND NAME FILE FUNCTION: whether the test enters the function; that is not known of headers and tables, nor
-# where tests kill processes, which leave no counts.
-reaches() {
-    case $3,$4 in *.c,?*) ;; *) return 0 ;; esac
+# executes KIND NAME FILE LINE: whether the test executes the line, or its function where it is not counted; that is
+# not known of headers and tables, nor where tests kill processes, which leave no counts.
+executes() {
+    case $3 in *.c) ;; *) return 0 ;; esac
     case $2 in wait | signal | kill) return 0 ;; esac
     counts=$place/reach/$1-$2
     [ -d "$counts" ] || count_lines "$1" "$2" "$counts"
@@ -188,11 +174,17 @@ reaches() {
         [ -e "$object" ] || continue
         base=${object%.gcda}
         ln -f "$tree/counted/${base#"$counts/"}.gcno" "$base.gcno"
-        gcov -f -n "$object" 2>/dev/null
-    done | awk -v name="$4" '
-        $1 == "Function" { is_it = index($2, name) == 2 && length($2) == length(name) + 2 }
-        /^Lines executed/ && is_it && !/:0[.]00%/ { is_entered = 1 }
-        END { exit !is_entered }'
+        gcov -t "$object" 2>/dev/null
+    done | awk -F: -v file="$3" -v line="$4" '
+        $2 + 0 == 0 { is_it = $3 == "Source" ? $4 == file : is_it; next }
+        !is_it { next }
+        $2 + 0 == line { count = $1; gsub(/[ *]/, "", count); is_in = 1 }
+        $1 ~ /[0-9]/ { runs = 1 }
+        $3 ~ /^}/ {
+            if (is_in && (count == "-" ? runs : count + 0 > 0)) found = 1
+            is_in = runs = 0
+        }
+        END { exit !found }'
 }
 # count_lines KIND NAME FOLDER: runs a test with the sources themselves and leaves what it executes in the folder.
 count_lines() {
@@ -236,9 +228,6 @@ build build/tests/suite build/dalembert && build_counted ||
 cp "$tree/build/tests/suite" "$place/suite"
 cp "$tree/build/dalembert" "$place/program"
 "$place/suite" --list >"$place/suites"
-while read -r suite; do
-    grep -qw "$suite" "$here/suites.txt" || { echo "mutants: suites.txt lacks the suite $suite" >&2; exit 2; }
-done <"$place/suites"
 cksum "$place/suite" "$place/program" >"$place/now"
 find "$tree/tests/cli" -type f | sort | xargs cat | cksum >>"$place/now"
 if ! cmp -s "$place/now" "$place/known"; then
@@ -277,7 +266,7 @@ while [ "$count" -lt "$wanted" ] && IFS= read -r candidate <&3; do
         same=$((same + 1))
     else
         count=$((count + 1))
-        passes "$file" "$(function_of "$file" "$line")"
+        passes "$file" "$line"
         ends=$?
         if [ $ends -eq 0 ]; then
             noticed="by none"
