@@ -164,12 +164,13 @@ passes() {
     done 4<"$place/tests"
 }
 # executes KIND NAME FILE LINE: whether the test executes the line, or its function where it is not counted; that is
-# not known of headers and tables, nor where tests kill processes, which leave no counts.
+# not known of headers and tables, nor where processes are killed or cannot write, which leaves no counts.
 executes() {
     case $3 in *.c) ;; *) return 0 ;; esac
     case $2 in wait | signal | kill) return 0 ;; esac
     counts=$place/reach/$1-$2
     [ -d "$counts" ] || count_lines "$1" "$2" "$counts"
+    [ -e "$counts/incomplete" ] && return 0
     for object in "$counts/${3%.c}".gcda "$counts/${3%.c}"_x[0-9]*.gcda; do
         [ -e "$object" ] || continue
         base=${object%.gcda}
@@ -186,7 +187,8 @@ executes() {
         }
         END { exit !found }'
 }
-# count_lines KIND NAME FOLDER: runs a test with the sources themselves and leaves what it executes in the folder.
+# count_lines KIND NAME FOLDER: runs a test with the sources themselves and leaves what it executes in the folder; a
+# test that fails has seen messages of gcov.
 count_lines() {
     binary=counted/dalembert
     [ "$1" = cli ] || binary=counted/tests/suite
@@ -195,7 +197,7 @@ count_lines() {
         GCOV_PREFIX_STRIP=$(echo "$tree/counted" | tr -cd / | wc -c)
         export GCOV_PREFIX GCOV_PREFIX_STRIP
         mkdir -p "$3.$$"
-        run_test 3600 "$1" "$2" $binary
+        run_test 3600 "$1" "$2" $binary || : >"$3.$$/incomplete"
     )
     mv -T "$3.$$" "$3"
 }
