@@ -205,6 +205,21 @@ static void test_continuation_of_lift(void)
     close_sideways(&w);
 }
 
+/* A sleigh that stays at rest makes no jumps: what is left is the way to the target. */
+static void test_distance_alone(void)
+{
+    dal__newton_result result;
+    sideways w;
+    open_sideways(&w, NULL);
+    const int dimension = w.problem.dimension;
+    memset(w.shooting.point, 0,
+           (size_t)(w.shooting.pieces + 1) * (size_t)dimension * sizeof(double));
+    for (int k = 0; k <= w.shooting.pieces; k++) w.shooting.point[k * dimension + 6] = 1.0; /* e */
+    CU_ASSERT_EQUAL(dal__newton_measure(&w.shooting, &result), DAL_STATUS_OK);
+    CU_ASSERT_DOUBLE_EQUAL(result.residual * w.problem.unit[1], 1.0, 1e-14);
+    close_sideways(&w);
+}
+
 typedef struct call_count {
     int made, last;
 } call_count;
@@ -446,6 +461,7 @@ void suite_steer_ends(void)
     CU_add_test(suite, "an interruption between many steps", test_many_steps);
     CU_add_test(suite, "an end that is moved", test_continuation);
     CU_add_test(suite, "an end that is moved, on the lift", test_continuation_of_lift);
+    CU_add_test(suite, "a distance without jumps", test_distance_alone);
     CU_add_test(suite, "an end whose move is stopped", test_stopped_continuation);
     CU_add_test(suite, "a search that is stopped anywhere", test_stopped_anywhere);
     CU_add_test(suite, "a holonomic constraint, closed form", test_circle);
