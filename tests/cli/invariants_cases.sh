@@ -84,3 +84,6 @@ try 0 run whole.yaml $motion --invariants auto -o -
 says '^dalembert: whole.yaml has no further invariants of degree 2$'
 try 2 run pair.yaml $motion --invariants all
 try 2 run pair.yaml $motion --invariants auto --set nope=1
+printf "coordinates: [x]\nlagrangian: x'^2/2\nforces: {x: log(-1 - x^2)}\n" >nowhere.yaml
+try 2 run nowhere.yaml $motion --invariants auto -o -
+alone '^dalembert: nowhere.yaml: there are no points of D = 0 near the start with a finite F$'
