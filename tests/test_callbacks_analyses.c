@@ -2,11 +2,13 @@
  * predictions, pairings, error budgets, sensitivities and steering; and allocations
  * that do (trial.h). */
 #include "allocation.h"
+#include "failing.h"
 #include "fixtures.h"
 #include "run/quad.h"
 #include "run/run.h"
 #include "trial.h"
 #include <CUnit/CUnit.h>
+#include <limits.h>
 #include <math.h>
 
 #define DIFFERENCES 1e-6 /* the error of differences is smaller */
@@ -269,6 +271,21 @@ static void test_exponents(void)
     trial_each_tangent_call(sleigh, "gauss4", DAL_LIFTED, 0.0, measure_lifted_exponents, &tangent);
 }
 
+/* div F where a motion begins. */
+static void test_divergence(void)
+{
+    static const char *const jacobian[] = {"jacobian", NULL};
+    const dal_system system = failing_system(fixture_system(damped), jacobian);
+    const dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
+    dal_lyapunov *l = NULL;
+    dal_error error;
+    failing_begin(1, LONG_MAX);
+    CU_ASSERT_EQUAL(dal_lyapunov_create(&l, &spec, NULL, 0, &error), DAL_STATUS_IO);
+    CU_ASSERT_STRING_EQUAL(error.message, "t = 0: no jacobian: input or output failed");
+    failing_begin(0, 0);
+    dal_lyapunov_free(l);
+}
+
 static void test_pairings(void)
 {
     tangent = fixture_tangent(sleigh);
@@ -370,6 +387,7 @@ void suite_callbacks_analyses(void)
 {
     CU_pSuite suite = CU_add_suite("callbacks that fail in analyses", NULL, NULL);
     CU_add_test(suite, "exponents", test_exponents);
+    CU_add_test(suite, "a divergence", test_divergence);
     CU_add_test(suite, "pairings", test_pairings);
     CU_add_test(suite, "predictions and budgets", test_predictions);
     CU_add_test(suite, "an observer that ends a motion", test_interrupted_motion);
