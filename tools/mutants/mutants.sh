@@ -12,7 +12,7 @@
 # SANITIZE=1 builds them with the address and undefined-behaviour sanitizers, which notice reads and
 # writes past an end that change no result.
 #
-# Each is built below BUILD/mutants by JOBS processes, at -O1 and with few variants, since a source of
+# Each is built below BUILD/mutants by JOBS processes, at -O2 and with few variants, since a source of
 # several widths must be changed in all of them; one is for AVX2, so that code for it runs as well.
 # The tests that execute the line with the sources themselves, which gcov counts, run one by one until
 # one fails: suites in quick runs and whole, and parts of the command line, for a file in cli/ only
@@ -42,7 +42,7 @@ BUILD=${BUILD:-build}
 place=$root/$BUILD/mutants
 case $BUILD in /*) place=$BUILD/mutants ;; esac
 # What is no C, such as arguments exchanged that have other types, is no mutant.
-flags="-O1 -Werror=incompatible-pointer-types -Werror=int-conversion"
+flags="-O2 -Werror=incompatible-pointer-types -Werror=int-conversion"
 if [ -n "$SANITIZE" ]; then
     place=$place-sanitize
     flags="$flags -fno-omit-frame-pointer -fno-sanitize-recover=all -fsanitize=address,undefined"
@@ -74,7 +74,7 @@ build() {
 }
 # The same with counts of how often each line is executed, which each process adds to a file of its object.
 build_counted() {
-    build BUILD=counted CFLAGS="$flags --coverage" counted/tests/suite counted/dalembert
+    build BUILD=counted CFLAGS="$flags -O1 --coverage" counted/tests/suite counted/dalembert
 }
 # tests_of FILE: what may notice a fault in it, "suite NAME" in a quick run, "whole NAME" and "cli PART".
 tests_of() {
@@ -88,7 +88,7 @@ tests_of() {
 # its processor time, "passed" or "noticed".
 cheapest_first() {
     tests_of "$1" | awk -v folder="$(dirname "$1")" '
-        BEGIN { usual["suite"] = 1; usual["whole"] = 3; usual["cli"] = 5 }
+        BEGIN { usual["suite"] = 1; usual["whole"] = 15; usual["cli"] = 5 }
         FILENAME == "-" {
             test = $1 " " $2
             cost = 0.05 + (test in time ? time[test] : usual[$1]) + 0.001 * ++count
