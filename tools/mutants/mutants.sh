@@ -64,7 +64,7 @@ copy_sources() {
         mkdir -p "$tree/$(dirname "$file")"
         cp "$file" "$tree/$file"
     done
-    (cd "$tree" && find . -path ./build -prune -o -type f -print) | while read -r file; do
+    (cd "$tree" && find . \( -path ./build -o -path ./counted \) -prune -o -type f -print) | while read -r file; do
         [ -e "$file" ] || rm "$tree/$file"
     done
 }
