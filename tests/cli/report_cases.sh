@@ -364,10 +364,12 @@ try 0 run bounces.yaml --integrator gauss4 --step 0.01 --time 2 --columns x,E --
 try 0 report bounces
 expect "no events of a run with few columns" grep -q '<td>impact</td><td>3</td>' bounces/report/index.html
 sed 's/restitution: c/restitution: 1/' bounces.yaml >endless.yaml
-try 0 run endless.yaml --integrator gauss4 --step 0.01 --time 200 --set u=0 --output many-bounces
+# 443 of them, 0.9 apart, in 250 places of 1.6.
+try 0 run endless.yaml --integrator gauss4 --step 0.01 --time 400 --set u=0 --output many-bounces
 try 0 report many-bounces
 expect "long lines at many events" sh -c "! grep -q 'graph 0 to' many-bounces/report/E.gp"
-expect "too many lines" test "$(grep -c '^set arrow.*graph 0.95 to' many-bounces/report/E.gp)" -le 251
+lines=$(grep -c '^set arrow.*graph 0.95 to' many-bounces/report/E.gp)
+expect "not a line in each place" test "$lines" -ge 249 -a "$lines" -le 251
 
 case_is "the page of a run that failed"
 try 3 run pursuit --integrator rk4 --step 0.01 --time 10 --output aborted
