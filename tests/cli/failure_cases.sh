@@ -145,7 +145,8 @@ for arguments in "check line.yaml" "show benenti" "generate line.yaml --integrat
     "check line.yaml --latex" "check line.yaml --mathml" "dirac line.yaml" "dirac line.yaml --latex" \
     "dirac line.yaml --json" "invariants line.yaml" "invariants line.yaml --json" "volume line.yaml $motion" \
     "action line.yaml curve.csv" "action line.yaml curve.csv --json" "section line.yaml --on x-0.1 $motion --json" \
-    "list systems --json" "list integrators --markdown" "help run"; do
+    "list systems --json" "list integrators --markdown" "help run" \
+    "ensemble line.yaml $motion --members 4 --seed 1 --vary x=uniform(1,2) --output full-ensemble --no-page"; do
     "$program" $arguments >/dev/full 2>err
     status=$?
     expect "exit $status, not 4: $arguments" [ $status -eq 4 ]
