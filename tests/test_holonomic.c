@@ -317,6 +317,31 @@ static void test_event(void)
     dal_run_free(run);
 }
 
+static dal_status compare_q(void *user, dal_run *run, const dal_occurrence *event)
+{
+    CU_ASSERT(largest(run, 'C') > 1e-10);
+    CU_ASSERT_EQUAL(memcmp(dal_run_state(run), event->before, 2 * sizeof(double)), 0);
+    ++*(int *)user;
+    return DAL_STATUS_OK;
+}
+
+/* An impact changes velocities alone, also where g is not 0. */
+static void test_impact(void)
+{
+    static const char text[] = "coordinates: [x, y]\n"
+                               "lagrangian: (x'^2 + y'^2)/2\n"
+                               "holonomic: [x^2 + y^2 - 1]\n"
+                               "start: {x: 1, y': 1}\n"
+                               "events: [{when: y - 0.6, restitution: 1}]\n";
+    dal_run_spec spec = fixture_spec(fixture_system(text), "rk4", DAL_PHYSICAL, 0.125);
+    int impacts = 0;
+    spec.options.bare = true;
+    dal_run *run = fixture_run(&spec);
+    CU_ASSERT_EQUAL(fixture_events(run, 1.0, compare_q, &impacts, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(impacts, 1);
+    dal_run_free(run);
+}
+
 /* ---- what is refused ---- */
 
 /* rattle wants a constant W, gauss-spark one that does not depend on v. */
@@ -481,6 +506,7 @@ void suite_holonomic(void)
     CU_add_test(suite, "the option consistent", test_consistent);
     CU_add_test(suite, "rows of g beside rows of D", test_rows_of_g);
     CU_add_test(suite, "an event sets q", test_event);
+    CU_add_test(suite, "an impact leaves q", test_impact);
     CU_add_test(suite, "methods that are refused", test_methods_refused);
     CU_add_test(suite, "mass matrices that are refused", test_masses_refused);
     CU_add_test(suite, "methods that are completed", test_completed);
